@@ -1,0 +1,51 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+# Everything a fresh machine needs: Python 3.10 or newer with venv, make, and a Python package index.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+
+# Passed on to pytest or to the demo: make test ARGS='-k gating'
+ARGS ?=
+
+# A ROS installation or another environment that is active in this shell must not leak into .venv.
+unexport AMENT_PREFIX_PATH LD_LIBRARY_PATH PYTHONPATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test coverage lint clean
+
+help: ## say what can be made
+	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+setup: $(READY) ## make the environment .venv if it is missing or out of date
+
+demo: $(READY) ## play a recorded scene through the live radar node and draw what came out
+	$(BIN)/python -m tracking_tools.demo $(ARGS)
+
+test: $(READY) ## run the whole test suite
+	$(BIN)/python -m pytest $(ARGS)
+
+coverage: $(READY) ## run the core's tests and show which of its lines and branches they miss
+	$(BIN)/python -m pytest test/tracking_core --cov --cov-report=term-missing $(ARGS)
+
+lint: $(READY) ## check style, types and import rules
+	$(BIN)/python -m ruff check
+	$(BIN)/python -m ruff format --check
+	$(BIN)/python -m mypy
+	$(BIN)/lint-imports
+
+clean: ## remove the environment and all that was built
+	rm -rf $(VENV) build install log dist output htmlcov .coverage .coverage.* *.egg-info
+	rm -rf .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+$(BIN)/python:
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "Python 3.10 or newer is needed")'
+	$(PYTHON) -m venv --clear $(VENV) || { rm -rf $(VENV); exit 1; }
+
+$(READY): $(BIN)/python setup.py pyproject.toml
+	@echo 'Installing into $(VENV); this takes a few minutes the first time.'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[ros,tools,test]'
+	@touch $@

@@ -1,0 +1,137 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Where did the antenna point, and when?
+
+Every plot of a rotating antenna lies where the antenna pointed at the plot's time, so azimuth and
+time of the plots tell rate, direction and phase. They are learnt once, then followed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracking_core.batches import Floats, Plots
+from tracking_core.linalg import wrap_angle
+
+TWO_PI = 2.0 * np.pi
+_IN_STEP = 0.97  # mean resultant length of azimuth minus antenna; 1: every plot on the beam
+_FEWEST = 8  # plots from which a rate is learnt
+_SAMPLES = 400  # plots remembered while learning
+_PERIODS = (0.4, 60.0)  # of antennas [s]
+_LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What one message swept: the antenna turned by `angle` from `start_azimuth`."""
+
+    start_time: float  # [s]
+    end_time: float  # [s]
+    start_azimuth: float = 0.0  # sensor axes [rad]
+    angle: float = 0.0  # signed [rad]; 0: a look everywhere at once
+    contiguous: bool = False
+
+
+class Antenna:
+    """Follows the rotation of one antenna from message to message."""
+
+    def __init__(self, period: float, full_turns: bool, time_reference: str) -> None:
+        self._period = period  # [s], 0: to be learnt
+        self._full_turns = full_turns
+        self._reference = time_reference
+        self._rate = 0.0  # [rad/s], 0: not known
+        self._time, self._azimuth = np.zeros(0), np.zeros(0)
+        self._start = np.nan  # of the last message [s]
+        self._end = np.nan
+        self._interval = 0.0  # between messages [s]
+
+    @property
+    def rotation_rate(self) -> float:
+        """Learnt rate [rad/s], anticlockwise positive; 0 if the sensor does not rotate."""
+        return self._rate
+
+    def follow(self, plots: Plots, azimuth: Floats) -> Sweep:
+        """
+        Return what the message swept.
+
+        Parameters
+        ----------
+        plots : Plots
+            M plots with their times, and the stamp of the message.
+        azimuth : (M,) array
+            Of the plots in sensor axes [rad].
+
+        """
+        start = min(plots.stamp, float(plots.time.min(initial=np.inf)))
+        latest = max(plots.stamp, float(plots.time.max(initial=-np.inf)))
+        if start > self._start:
+            interval = start - self._start
+            longest = 1.5 * self._interval if self._interval else np.inf
+            self._interval = interval if interval < longest else self._interval
+        self._learn(plots.time, azimuth)
+        end = latest
+        if self._full_turns and self._rate:
+            reach = {'start': 1.0, 'middle': 0.5, 'end': 0.0}[self._reference]
+            end = max(latest, plots.stamp + reach * min(self._interval, TWO_PI / abs(self._rate)))
+        return self._sweep(plots.time, azimuth, start, end)
+
+    def _sweep(self, time: Floats, azimuth: Floats, start: float, end: float) -> Sweep:
+        last, self._start, self._end = self._end, start, end
+        if self._rate == 0.0:
+            return Sweep(start, end)
+        period = TWO_PI / abs(self._rate)
+        contiguous = (
+            bool(abs(start - last) < _LATE * period)
+            if self._full_turns
+            else (0.0 <= end - last < 0.75 * period)
+        )
+        if contiguous:
+            start = min(last, end)
+        return Sweep(start, end, self._phase_at(start), self._rate * (end - start), contiguous)
+
+    def _phase_at(self, time: float) -> float:
+        """Return where the antenna pointed at this time [rad]."""
+        beam = np.exp(1j * (self._azimuth - self._rate * (self._time - time)))
+        return float(np.angle(beam.sum())) if len(beam) else 0.0
+
+    def _learn(self, time: Floats, azimuth: Floats) -> None:
+        """Follow the rate, or find it."""
+        self._time = np.concatenate([self._time, time])[-_SAMPLES:]
+        self._azimuth = np.concatenate([self._azimuth, azimuth])[-_SAMPLES:]
+        span = np.ptp(self._time) if len(self._time) else 0.0
+        if len(self._time) < _FEWEST or span <= 0.0:
+            return
+        if self._rate:
+            self._refine()
+            return
+        if self._period:
+            candidates = TWO_PI / self._period * np.array([1.0, -1.0])
+        else:
+            step = 0.25 * TWO_PI / span / 2.0
+            rates = np.arange(TWO_PI / _PERIODS[1], TWO_PI / _PERIODS[0], step)
+            candidates = np.concatenate([rates, -rates])
+        in_step = self._in_step(candidates)
+        best = int(np.argmax(in_step))
+        if in_step[best] > (_IN_STEP if self._period else 0.6):
+            self._rate = float(candidates[best])
+            self._refine()
+
+    def _in_step(self, rates: Floats) -> Floats:
+        middle = self._time - self._time.mean()
+        return np.asarray(
+            np.abs(np.exp(1j * (self._azimuth - rates[:, None] * middle)).mean(axis=1))
+        )
+
+    def _refine(self) -> None:
+        """Fit the rate to the remembered plots; forget it when they are not on the beam."""
+        for _ in range(3):
+            t = self._time - self._time.mean()
+            beam = self._azimuth - self._rate * t
+            off = wrap_angle(beam - np.angle(np.exp(1j * beam).sum()))
+            self._rate += float((t * off).sum() / (t * t).sum())
+        if self._in_step(np.array([self._rate]))[0] < _IN_STEP:
+            self._rate = 0.0
+            self._time, self._azimuth = self._time[-50:], self._azimuth[-50:]

@@ -1,0 +1,151 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which parameters does the radar tracker have? Read this file as the table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from radar_tracker.motion_config import MotionConfig
+from tracking_core.association import ASSOCIATORS
+from tracking_core.config import parameter, validate
+from tracking_core.lifecycle_config import (
+    ExistenceConfig,
+    GateConfig,
+    InitiationConfig,
+    MergeConfig,
+    MOfNConfig,
+)
+
+
+@dataclass(frozen=True)
+class MountConfig:
+    """Where the radar sits on its platform."""
+
+    x: float = parameter(0.0, unit='m', doc='forward of the platform origin')
+    y: float = parameter(0.0, unit='m', doc='left of the platform origin')
+    z: float = parameter(0.0, unit='m', doc='above the platform origin')
+    yaw: float = parameter(0.0, unit='rad', doc='anticlockwise from the platform x axis')
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class SensorConfig:
+    """What the radar measures, how well, and where."""
+
+    range_sd: float = parameter(50.0, unit='m', doc='range noise', low=1e-3)
+    azimuth_sd: float = parameter(0.00175, unit='rad', doc='azimuth noise', low=1e-6, high=0.5)
+    elevation_sd: float = parameter(0.0026, unit='rad', doc='elevation noise', low=1e-6, high=0.5)
+    range_rate_sd: float = parameter(2.0, unit='m/s', doc='range rate noise', low=1e-3)
+    position_sd: float = parameter(30.0, unit='m', doc='noise of Cartesian plots', low=1e-3)
+    detection_probability: float = parameter(
+        0.9, unit='1', doc='chance that a look at a contact gives a plot', low=0.01, high=0.999,
+        live=True,
+    )  # fmt: skip
+    dimensions: int = parameter(
+        0, unit='1', doc='2 or 3; 0: as the first plots tell (elevation or z: 3)', low=0, high=3
+    )
+    azimuth_convention: str = parameter(
+        'enu', unit='', choices=('enu', 'compass'),
+        doc='azimuth anticlockwise from x, or clockwise from north',
+    )  # fmt: skip
+    range_rate_sign: int = parameter(
+        1, unit='1', doc='1: receding is positive, -1: approaching is positive', low=-1, high=1
+    )
+    range_min: float = parameter(0.0, unit='m', doc='plots nearer than this are dropped', low=0.0)
+    range_max: float = parameter(4e5, unit='m', doc='plots beyond this are dropped', low=1.0)
+    sector_centre: float = parameter(
+        0.0, unit='rad', doc='middle of what the sensor sees, sensor axes', low=-np.pi, high=np.pi
+    )
+    sector_width: float = parameter(
+        2.0 * np.pi, unit='rad', doc='width of what the sensor sees', low=1e-3, high=2.0 * np.pi
+    )
+    elevation_span: float = parameter(
+        0.7,
+        unit='rad',
+        doc='elevations in which false plots arise (3-D radar)',
+        low=1e-3,
+        high=3.2,
+    )
+    range_rate_max: float = parameter(
+        600.0, unit='m/s', doc='false plots have range rates up to this, either sign', low=0.1
+    )
+    mount: MountConfig = field(default_factory=MountConfig)
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+        if self.range_min >= self.range_max:
+            raise ValueError(
+                f'SensorConfig.range_min must be below range_max = {self.range_max}, '
+                f'got {self.range_min}'
+            )
+
+
+@dataclass(frozen=True)
+class ScanConfig:
+    """How messages become looks of the antenna."""
+
+    assembly: str = parameter(
+        'message', unit='', choices=('message', 'sector', 'rotation'),
+        doc='a message is a full turn, a sector of one, or a sector to collect into full turns',
+    )  # fmt: skip
+    time_reference: str = parameter(
+        'start', unit='', choices=('start', 'middle', 'end'),
+        doc='what the stamp of a message without plot times means',
+    )  # fmt: skip
+    period: float = parameter(
+        0.0, unit='s', doc='time of one antenna turn; 0: learnt from the plots', low=0.0
+    )
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class RadarTrackerConfig:
+    """All parameters of the radar tracker; the defaults are the modes of [ZHUK09]."""
+
+    sensor: SensorConfig = field(default_factory=SensorConfig)
+    scan: ScanConfig = field(default_factory=ScanConfig)
+    motion: MotionConfig = field(default_factory=MotionConfig)
+    gate: GateConfig = field(default_factory=GateConfig)
+    existence: ExistenceConfig = field(default_factory=ExistenceConfig)
+    m_of_n: MOfNConfig = field(default_factory=MOfNConfig)
+    initiation: InitiationConfig = field(default_factory=InitiationConfig)
+    merge: MergeConfig = field(default_factory=MergeConfig)
+    estimator: str = parameter(
+        'markov_jump', unit='', choices=('markov_jump',), doc='filter of every track'
+    )
+    output: str = parameter(
+        'mmse', unit='', choices=('mmse', 'map'), live=True,
+        doc='published state: the mixture of the modes, or the most probable mode',
+    )  # fmt: skip
+    association: str = parameter(
+        'jpda', unit='', choices=tuple(ASSOCIATORS), doc='how plots are shared among tracks',
+        live=True,
+    )  # fmt: skip
+    lifecycle: str = parameter(
+        'existence', unit='', choices=('existence', 'm_of_n'),
+        doc='what confirms and deletes tracks',
+    )  # fmt: skip
+    clutter_density: float = parameter(
+        0.0, unit='1/(m rad), 3-D 1/(m rad^2), Cartesian 1/m^2 or 1/m^3', low=0.0, live=True,
+        doc='false plots of one look per unit of plot space; 0: estimated',
+    )  # fmt: skip
+    max_tracks: int = parameter(
+        5000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000
+    )
+    max_plots: int = parameter(
+        20_000, unit='1', doc='rows used of one message', low=1, high=1_000_000
+    )
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)

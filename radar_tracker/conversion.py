@@ -1,0 +1,105 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What do range, azimuth and elevation say in Cartesian coordinates, and how surely?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tracking_core.batches import Floats
+
+BIAS_LIMIT = 0.4  # of r s^2 / s_r, beyond which the bent noise of far plots is straightened out
+
+
+def to_cartesian(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
+    """
+    Convert polar or spherical plots with their covariance.
+
+    Parameters
+    ----------
+    polar : (M, 2) or (M, 3) array
+        Range [m], azimuth and, if three, elevation [rad].
+    sd : (M, 2) or (M, 3) array
+        Standard deviations of the same.
+
+    Returns
+    -------
+    position : (M, d) array
+        [m]
+    covariance : (M, d, d) array
+        Linearised at the plot, J diag(sd^2) J^T; for plots with r s^2 / s_r > 0.4 both are those
+        of the unbiased conversion.
+
+    References
+    ----------
+    [ZHUK09] eq. 10 to 15, with the misprints in (13) to (15) put right; [MUCM] for the rest.
+
+    """
+    position, covariance = linearised(polar, sd)
+    angle_sd = sd[:, 1:].max(axis=1, initial=0.0)
+    bent = polar[:, 0] * angle_sd**2 > BIAS_LIMIT * sd[:, 0]
+    if bent.any():
+        position[bent], covariance[bent] = unbiased(polar[bent], sd[bent])
+    return position, covariance
+
+
+def linearised(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
+    """Return position (M, d) and J diag(sd^2) J^T (M, d, d) of plots as in `to_cartesian`."""
+    r, azimuth, elevation = _columns(polar)
+    cb, sb, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
+    position = np.stack([r * ce * cb, r * ce * sb, r * se], axis=1)
+    J = np.empty((len(r), 3, 3))
+    J[:, 0] = np.stack([ce * cb, -r * ce * sb, -r * se * cb], axis=1)
+    J[:, 1] = np.stack([ce * sb, r * ce * cb, -r * se * sb], axis=1)
+    J[:, 2] = np.stack([se, np.zeros_like(r), r * ce], axis=1)
+    d = polar.shape[1]
+    scaled = J[:, :d, :d] * sd[:, None, :]
+    return position[:, :d].copy(), scaled @ np.swapaxes(scaled, 1, 2)
+
+
+def unbiased(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
+    """
+    Return position and covariance with the mean shift of large angle noise taken out.
+
+    References
+    ----------
+    [MUCM] multiplicative unbiased conversion, covariance given the plot.
+
+    """
+    r, azimuth, elevation = _columns(polar)
+    variance = np.zeros((len(r), 3))
+    variance[:, : sd.shape[1]] = sd**2
+    lb, le = np.exp(-0.5 * variance[:, 1]), np.exp(-0.5 * variance[:, 2])
+    lb2, le2 = lb**4, le**4  # exp(-2 s^2)
+    cb, sb, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
+    position = np.stack([r * ce * cb / lb / le, r * ce * sb / lb / le, r * se / le], axis=1)
+    square, power = r**2, r**2 + variance[:, 0]
+    level = 1.0 + le2 * np.cos(2.0 * elevation)
+    plane = (1.0 / (lb * le) ** 2 - 2.0) * square * ce**2
+    tilt = (1.0 / (lb * le**2) - 1.0 / lb - lb) * square * se * ce
+    tilt = tilt + 0.5 * power * lb * le2 * np.sin(2.0 * elevation)
+    R = np.empty((len(r), 3, 3))
+    R[:, 0, 0] = plane * cb**2 + 0.25 * power * (1.0 + lb2 * np.cos(2.0 * azimuth)) * level
+    R[:, 1, 1] = plane * sb**2 + 0.25 * power * (1.0 - lb2 * np.cos(2.0 * azimuth)) * level
+    R[:, 2, 2] = (1.0 / le**2 - 2.0) * square * se**2
+    R[:, 2, 2] += 0.5 * power * (1.0 - le2 * np.cos(2.0 * elevation))
+    R[:, 0, 1] = plane * sb * cb + 0.25 * power * lb2 * np.sin(2.0 * azimuth) * level
+    R[:, 0, 2], R[:, 1, 2] = tilt * cb, tilt * sb
+    R[:, 1, 0], R[:, 2, 0], R[:, 2, 1] = R[:, 0, 1], R[:, 0, 2], R[:, 1, 2]
+    d = polar.shape[1]
+    return position[:, :d], R[:, :d, :d]
+
+
+def to_polar(position: Floats) -> Floats:
+    """Return range [m], azimuth and, for three coordinates, elevation [rad] of (M, d)."""
+    ground = np.hypot(position[:, 0], position[:, 1])
+    azimuth = np.arctan2(position[:, 1], position[:, 0])
+    if position.shape[1] == 2:
+        return np.stack([ground, azimuth], axis=1)
+    distance = np.hypot(ground, position[:, 2])
+    return np.stack([distance, azimuth, np.arctan2(position[:, 2], ground)], axis=1)
+
+
+def _columns(polar: Floats) -> tuple[Floats, Floats, Floats]:
+    elevation = polar[:, 2] if polar.shape[1] == 3 else np.zeros(len(polar))
+    return polar[:, 0], polar[:, 1], elevation

@@ -1,0 +1,151 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What does the radar measure, where does it look, and how sure is it?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from radar_tracker.config import MountConfig, SensorConfig
+from radar_tracker.conversion import linearised, to_cartesian, to_polar
+from tracking_core.batches import Coverage, Floats, Plots, Scan
+from tracking_core.platform import PlatformPose
+
+
+@dataclass(frozen=True)
+class Radar:
+    """Measurement model of one radar, in the tracking frame."""
+
+    config: SensorConfig
+    dimensions: int  # 2 or 3
+    is_polar: bool
+
+    @staticmethod
+    def for_plots(config: SensorConfig, plots: Plots) -> Radar:
+        """Return the radar that these plots come from, by the columns that they have."""
+        is_polar = bool(np.isfinite(plots.range).any())
+        height = plots.elevation if is_polar else plots.position[:, 2]
+        dimensions = config.dimensions or (3 if np.isfinite(height).any() else 2)
+        return Radar(config, dimensions, is_polar)
+
+    @property
+    def detection_probability(self) -> float:
+        """P_D."""
+        return self.config.detection_probability
+
+    @property
+    def range_rate_density(self) -> float:
+        """Density of the range rates of false plots [s/m]."""
+        return 0.5 / self.config.range_rate_max
+
+    def plot_space_volume(self, range_max: float) -> float:
+        """Return the volume of plot space out to a range [m]: m rad, m rad^2, m^2 or m^3."""
+        c = self.config
+        depth = range_max - c.range_min
+        height = c.elevation_span if self.dimensions == 3 else 1.0
+        if self.is_polar:
+            return depth * c.sector_width * height
+        power = self.dimensions
+        return c.sector_width * height * (range_max**power - c.range_min**power) / power
+
+    def noise(self, position: Floats, coverage: Coverage) -> Floats:
+        """Return the plot covariance (T, d, d) expected at positions (T, d) [m^2]."""
+        d, c = self.dimensions, self.config
+        if not self.is_polar:
+            return np.broadcast_to(c.position_sd**2 * np.eye(d), (len(position), d, d))
+        offset = position - np.array(coverage.sensor_position)[:d]
+        sd = np.broadcast_to([c.range_sd, c.azimuth_sd, c.elevation_sd][:d], offset.shape)
+        return linearised(to_polar(offset), sd)[1]
+
+    def measure(self, plots: Plots, pose: PlatformPose, coverage: Coverage, volume: float) -> Scan:
+        """
+        Bring plots from sensor axes into the tracking frame.
+
+        Parameters
+        ----------
+        plots : Plots
+            M plots.
+        pose : PlatformPose
+            Platform at the times of the plots.
+        coverage : Coverage
+            What the message looked at.
+        volume : float
+            Plot space of the whole coverage.
+
+        """
+        d = self.dimensions
+        local, covariance = self._local(plots)
+        turn, origin = _sensor_pose(pose, self.config.mount)
+        position = np.einsum('mij,mj->mi', turn, local) + origin
+        covariance = turn @ covariance @ np.swapaxes(turn, 1, 2)
+        covariance = covariance + _platform_noise(pose, position - origin)
+        unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
+        if d == 3:
+            position[unknown, 2] = np.nan
+        return Scan(
+            time=plots.time,
+            position=position[:, :d],
+            covariance=covariance[:, :d, :d],
+            range_rate=plots.range_rate,
+            range_rate_variance=_or(plots.range_rate_sd, self.config.range_rate_sd) ** 2,
+            snr=plots.snr,
+            clutter_volume=self._clutter_volume(plots),
+            sensor_position=origin,
+            sensor_velocity=pose.velocity,
+            coverage=coverage,
+            volume=volume,
+        )
+
+    def _local(self, plots: Plots) -> tuple[Floats, Floats]:
+        """Return position (M, 3) and covariance (M, 3, 3) in sensor axes."""
+        c, M, d = self.config, len(plots), self.dimensions
+        if not self.is_polar:
+            return np.nan_to_num(plots.position), np.tile(c.position_sd**2 * np.eye(3), (M, 1, 1))
+        polar = np.stack([plots.range, plots.azimuth, np.nan_to_num(plots.elevation)], axis=1)
+        sd = np.stack(
+            [
+                _or(plots.range_sd, c.range_sd),
+                _or(plots.azimuth_sd, c.azimuth_sd),
+                _or(plots.elevation_sd, c.elevation_sd),
+            ],
+            axis=1,
+        )
+        position, covariance = np.zeros((M, 3)), np.zeros((M, 3, 3))
+        covariance[:, 2, 2] = 1.0
+        position[:, :d], covariance[:, :d, :d] = to_cartesian(polar[:, :d], sd[:, :d])
+        return position, covariance
+
+    def _clutter_volume(self, plots: Plots) -> Floats:
+        """Return plot space per m^d at the plots (M,): 1/r, 1/(r^2 cos elevation) or 1."""
+        if not self.is_polar:
+            return np.ones(len(plots))
+        distance = np.maximum(plots.range, 1.0)
+        if self.dimensions == 2:
+            return np.asarray(1.0 / distance)
+        level = np.maximum(np.cos(np.nan_to_num(plots.elevation)), 1e-3)
+        return np.asarray(1.0 / (distance**2 * level))
+
+
+def _sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats, Floats]:
+    """Return rotation (M, 3, 3) from sensor to tracking axes and the sensor's position (M, 3)."""
+    if len(pose.position) == 0:
+        return np.zeros((0, 3, 3)), np.zeros((0, 3))
+    platform = Rotation.from_quat(pose.orientation)
+    offset = platform.apply([mount.x, mount.y, mount.z])
+    turn = (platform * Rotation.from_euler('z', mount.yaw)).as_matrix()
+    return turn, pose.position + offset
+
+
+def _platform_noise(pose: PlatformPose, offset: Floats) -> Floats:
+    """Return what the platform's own uncertainty adds (M, 3, 3): its position and its heading."""
+    across = np.stack([-offset[:, 1], offset[:, 0], np.zeros(len(offset))], axis=1)
+    swing = across[:, :, None] * across[:, None, :] * pose.yaw_variance[:, None, None]
+    return pose.position_covariance + swing
+
+
+def _or(values: Floats, default: float) -> Floats:
+    """Return the values, the default where the sensor tells none that can be true."""
+    return np.where(np.isfinite(values) & (values > 0.0), values, default)

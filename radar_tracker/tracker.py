@@ -1,0 +1,175 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How does a message of radar plots become tracks? The object that node and replay drive."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from radar_tracker.antenna import Antenna, Sweep, TWO_PI
+from radar_tracker.build import build_setup
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.conversion import to_polar
+from radar_tracker.sensor import Radar
+from tracking_core.batches import Coverage, Floats, Plots, State, Tracks
+from tracking_core.platform import Platform, PlatformPose
+from tracking_core.rows import concatenate
+from tracking_core.tracker import Tracker
+
+
+class RadarTracker:
+    """
+    Tracks of one radar.
+
+    What the parameters leave open (2-D or 3-D, polar or Cartesian, rotation of the antenna) is
+    learnt from the first plots.
+    """
+
+    def __init__(self, config: RadarTrackerConfig) -> None:
+        self.config = config
+        self._forget(next_id=1)
+
+    def _forget(self, next_id: int) -> None:
+        scan = self.config.scan
+        self._antenna = Antenna(scan.period, scan.assembly != 'sector', scan.time_reference)
+        self._radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
+        self._is_known = False  # which radar it is
+        self._farthest = 0.0  # plot so far [m]
+        self._collected: Plots | None = None
+        self._tracker = Tracker(build_setup(self.config, self._radar))
+        self._tracker.reset(next_id)
+
+    @property
+    def state(self) -> State:
+        """All that the tracker remembers, with the report of the last step."""
+        return self._tracker.state
+
+    @property
+    def tracks(self) -> Tracks:
+        """All tracks, each at the time of its last look."""
+        return self._tracker.tracks
+
+    @property
+    def dimensions(self) -> int:
+        """2 or 3, as configured or as the first plots told."""
+        return self._radar.dimensions
+
+    def reset(self) -> None:
+        """Forget all but the next id, as after a restart."""
+        self._forget(self.state.next_id)
+
+    def reconfigure(self, config: RadarTrackerConfig) -> None:
+        """Go on with other live parameters from the next message; tracks are kept."""
+        self.config = config
+        self._radar = replace(self._radar, config=config.sensor)
+        self._tracker.setup = build_setup(config, self._radar)
+
+    def start_track(self, position: Floats, time: float) -> int:
+        """Start a confirmed track at a position (2,) or (3,) [m] at a time [s]; return its id."""
+        full = np.zeros(self.dimensions)
+        full[: min(len(position), self.dimensions)] = position[: self.dimensions]
+        return self._tracker.acquire(full, time)
+
+    def drop_track(self, track_id: int) -> bool:
+        """Delete one track; return whether there was one with this id."""
+        return self._tracker.cancel(track_id)
+
+    def track(self, plots: Plots, platform: Platform | None = None) -> Tracks:
+        """
+        Follow all contacts through one message.
+
+        Parameters
+        ----------
+        plots : Plots
+            One message: a full turn, a sector, or a look everywhere at once.
+        platform : Platform, optional
+            Own ship in the tracking frame; without it the sensor stands at the origin.
+
+        Returns
+        -------
+        Tracks
+            Every track, each at the time of its last look.
+
+        Raises
+        ------
+        StalePlatform
+            If own ship is not known at the time of the plots.
+
+        """
+        self._recognise(plots)
+        collected = self._collect(plots)
+        if collected is None:
+            return self.tracks
+        pose = _pose(platform, collected.time)
+        sweep = self._antenna.follow(collected, self._azimuth(collected))
+        coverage = self._coverage(sweep, platform)
+        volume = self._radar.plot_space_volume(self._farthest or self.config.sensor.range_max)
+        return self._tracker.step(self._radar.measure(collected, pose, coverage, volume))
+
+    def _recognise(self, plots: Plots) -> None:
+        """Learn from the first plots what radar this is, and how far it sees."""
+        if len(plots) == 0:
+            return
+        if not self._is_known:
+            self._radar = Radar.for_plots(self.config.sensor, plots)
+            tracker = Tracker(build_setup(self.config, self._radar))
+            tracker.reset(self.state.next_id)
+            self._tracker, self._is_known = tracker, True
+        flat = np.nan_to_num(plots.position[:, : self.dimensions])
+        distance = plots.range if self._radar.is_polar else np.linalg.norm(flat, axis=1)
+        self._farthest = max(self._farthest, float(distance.max()))
+
+    def _collect(self, plots: Plots) -> Plots | None:
+        """Return the plots of a full turn when sectors are to be collected, or the message."""
+        if self.config.scan.assembly != 'rotation':
+            return plots
+        joined = plots if self._collected is None else concatenate(self._collected, plots)
+        first = plots.stamp if self._collected is None else self._collected.stamp
+        rate = abs(self._antenna.rotation_rate)
+        period = self.config.scan.period or (TWO_PI / rate if rate else 0.0)
+        self._collected = replace(joined, stamp=first)
+        if plots.stamp - first < period * (1.0 - 1e-6):
+            return None
+        turn, self._collected = self._collected, None
+        return turn
+
+    def _azimuth(self, plots: Plots) -> Floats:
+        if self._radar.is_polar:
+            return plots.azimuth
+        return to_polar(plots.position[:, :2])[:, 1]
+
+    def _coverage(self, sweep: Sweep, platform: Platform | None) -> Coverage:
+        """Turn what the antenna swept into the tracking frame."""
+        sensor = self.config.sensor
+        ends = _pose(platform, np.array([sweep.start_time, sweep.end_time]))
+        heading = ends.yaw + sensor.mount.yaw
+        turn = float(np.angle(np.exp(1j * (heading[1] - heading[0]))))
+        x, y, z = ends.position[1] + [sensor.mount.x, sensor.mount.y, sensor.mount.z]
+        return Coverage(
+            start_time=sweep.start_time,
+            end_time=sweep.end_time,
+            start_azimuth=sweep.start_azimuth + float(heading[0]),
+            sweep=sweep.angle + turn if sweep.angle else 0.0,
+            contiguous=sweep.contiguous,
+            sensor_position=(float(x), float(y), float(z)),
+            range_min=sensor.range_min,
+            range_max=sensor.range_max,
+            sector_centre=sensor.sector_centre + float(heading[1]),
+            sector_width=sensor.sector_width,
+        )
+
+
+def _pose(platform: Platform | None, times: Floats) -> PlatformPose:
+    """Return own ship at these times, at rest at the origin if there is none."""
+    if platform is not None:
+        return platform.at(times)
+    M = len(times)
+    return PlatformPose(
+        position=np.zeros((M, 3)),
+        orientation=np.tile([0.0, 0.0, 0.0, 1.0], (M, 1)),
+        velocity=np.zeros((M, 3)),
+        position_covariance=np.zeros((M, 3, 3)),
+        yaw_variance=np.zeros(M),
+    )

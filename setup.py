@@ -1,0 +1,71 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Build and install rules, for pip and for colcon alike."""
+
+from glob import glob
+
+from setuptools import find_packages, setup
+
+NAME = 'contact_tracking'
+SHARE = f'share/{NAME}'
+
+setup(
+    name=NAME,
+    version='0.1.0',
+    description='Radar plots and sonar bearings to tracks, live in ROS 2 or over a recorded bag',
+    author='contact_tracking authors',
+    author_email='maintainers@contact-tracking.invalid',
+    maintainer='contact_tracking authors',
+    maintainer_email='maintainers@contact-tracking.invalid',
+    license='Apache-2.0',
+    python_requires='>=3.10',
+    packages=find_packages(
+        include=[
+            f'{package}{below}'
+            for package in (
+                'msg_adapters',
+                'radar_tracker',
+                'sonar_tracker',
+                'tracking_core',
+                'tracking_tools',
+            )
+            for below in ('', '.*')
+        ]
+    ),
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
+        (SHARE, ['package.xml']),
+        (f'{SHARE}/launch', sorted(glob('launch/*.launch.py'))),
+        (f'{SHARE}/config', sorted(glob('config/*.yaml'))),
+    ],
+    install_requires=['setuptools', 'numpy>=1.26', 'scipy>=1.11'],
+    extras_require={
+        # What a machine with ROS has from its own packages; see package.xml.
+        'ros': [
+            'ros-jazzy-rclpy',
+            'ros-jazzy-common-interfaces',
+            'ros-jazzy-rmw-fastrtps-cpp',  # rclpy does not import without it
+        ],
+        'tools': ['rosbags>=0.11', 'matplotlib>=3.6', 'tqdm>=4.66', 'pyyaml>=6.0'],
+        # colcon runs the tests only when an extra of this name lists pytest.
+        'test': [
+            'pytest>=7.4',
+            'pytest-cov>=4.1',
+            'hypothesis>=6.98',
+            'ruff==0.17.*',  # the next minor version may format otherwise
+            'mypy==2.4.*',
+            'import-linter==2.*',
+            'colcon-common-extensions>=0.3',
+            'colcon-ros>=0.5',
+            'setuptools<80',  # from 80 on, colcon cannot link to the sources
+        ],
+    },
+    zip_safe=True,
+    entry_points={
+        'console_scripts': [
+            'radar_tracker = radar_tracker.node:main',
+            'replay = tracking_tools.replay:main',
+            'simulate = tracking_tools.simulate:main',
+        ],
+    },
+)

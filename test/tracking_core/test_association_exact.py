@@ -1,0 +1,182 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""The fast marginals against plain enumeration of all joint events."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
+import pytest
+
+from tracking_core.association import exact, global_nearest, jpda
+from tracking_core.association.sums import log_others, others
+from tracking_core.batches import Floats, Ints
+
+Scene = tuple[Ints, Ints, Floats, Floats, int]
+
+
+def make_scene(seed: int, tracks: int, plots: int, density: float, spread: float) -> Scene:
+    """Return random gated pairs with their weights, as the arguments of an associator."""
+    rng = np.random.default_rng(seed)
+    track, plot = np.nonzero(rng.random((tracks, plots)) < density)
+    log_weight = rng.uniform(-spread, spread, len(track))
+    return track, plot, log_weight, -rng.uniform(0.0, min(spread, 700.0), tracks), plots
+
+
+def enumerate_events(scene: Scene) -> tuple[Floats, Ints]:
+    """Return log weight (N,) and pair of each track (N, T), -1 for a miss, of all joint events."""
+    track, plot, log_weight, log_miss, _ = scene
+    weight, used, choice = np.zeros(1), np.zeros(1, np.int64), np.zeros((1, 0), np.int64)
+    for t, miss in enumerate(log_miss):
+        options = [(-1, 0, miss)]
+        options += [(k, 1 << int(plot[k]), log_weight[k]) for k in np.flatnonzero(track == t)]
+        free = [(used & bit) == 0 for _, bit, _ in options]
+        choice = np.concatenate(
+            [
+                np.insert(choice[f], t, k, axis=1)
+                for f, (k, _, _) in zip(free, options, strict=True)
+            ]
+        )
+        weight, used = (
+            np.concatenate([weight[f] + w for f, (_, _, w) in zip(free, options, strict=True)]),
+            np.concatenate([used[f] | bit for f, (_, bit, _) in zip(free, options, strict=True)]),
+        )
+    return weight, choice
+
+
+def marginals(scene: Scene) -> tuple[Floats, Floats]:
+    """Return the probabilities of pairs (P,) and misses (T,) by enumeration."""
+    weight, choice = enumerate_events(scene)
+    event = np.exp(weight - weight.max())
+    event /= event.sum()
+    pair, miss = np.zeros(len(scene[0])), np.zeros(len(scene[3]))
+    for t in range(len(miss)):
+        taken = choice[:, t] >= 0
+        pair += np.bincount(choice[taken, t], event[taken], len(pair))
+        miss[t] = event[~taken].sum()
+    return pair, miss
+
+
+def assert_exact(scene: Scene) -> None:
+    """Check jpda against enumeration; 1e-9 is a thousand times what rounding costs."""
+    pair, miss = marginals(scene)
+    result = jpda(*scene)
+    assert not result.approximate.any()
+    assert_allclose(result.probability, pair, rtol=0.0, atol=1e-9)
+    assert_allclose(result.miss, miss, rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize('plots', range(1, 8))
+@pytest.mark.parametrize('tracks', range(1, 6))
+def test_jpda_equals_enumeration(tracks: int, plots: int) -> None:
+    """Every size up to 5 x 7, dense and sparse, with ordinary and extreme weights."""
+    for spread in (1.0, 20.0, 300.0, 1000.0):
+        for density in (0.3, 0.6, 1.0):
+            assert_exact(make_scene(tracks + 10 * plots, tracks, plots, density, spread))
+
+
+@pytest.mark.parametrize(('tracks', 'plots'), [(7, 7), (8, 8), (8, 3), (3, 8)])
+@pytest.mark.parametrize('spread', [3.0, 1000.0])
+def test_jpda_equals_enumeration_on_large_clusters(tracks: int, plots: int, spread: float) -> None:
+    """Clusters of up to 8 x 8, fully linked: 1.4 million joint events."""
+    assert_exact(make_scene(5, tracks, plots, 1.0, spread))
+
+
+def test_jpda_equals_enumeration_when_all_want_one_plot() -> None:
+    """The winner of a plot is told even if each miss is impossible to floating point."""
+    track, plot = np.arange(4), np.zeros(4, np.int64)
+    assert_exact((track, plot, np.array([1000.0, 999.0, 998.5, -1000.0]), np.full(4, -700.0), 1))
+
+
+def test_jpda_is_the_same_in_small_batches(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Splitting work for memory, or not merging small batches, changes nothing."""
+    scene = make_scene(8, 60, 70, 0.02, 5.0)
+    whole = jpda(*scene)
+    monkeypatch.setattr(exact, 'MEMORY', 1)
+    monkeypatch.setattr(exact, 'PADDING', 0)
+    split = jpda(*scene)
+    assert not whole.approximate.any()
+    assert_allclose(split.probability, whole.probability, atol=1e-13)
+
+
+def test_jpda_takes_a_wide_cluster() -> None:
+    """Ten tracks that share 300 plots are still exact: each column of equal weights alike."""
+    track, plot = np.repeat(np.arange(10), 300), np.tile(np.arange(300), 10)
+    result = jpda(track, plot, np.zeros(3000), np.zeros(10), 300)
+    assert not result.approximate.any()
+    # Events with j pairs: C(10, j) 300! / (300 - j)!; a given pair is in j / 3000 of them.
+    ways = np.cumprod([1.0] + [(10 - j) * (300 - j) / (j + 1) for j in range(10)])
+    expected = (ways @ np.arange(11)) / 3000 / ways.sum()
+    assert_allclose(result.probability, expected, rtol=1e-12)
+
+
+def test_jpda_flags_belief_propagation_in_large_clusters_only() -> None:
+    """Eleven tracks on eleven plots are approximated and flagged, ten on eleven are not."""
+    assert jpda(*make_scene(1, 11, 11, 1.0, 3.0)).approximate.all()
+    assert not jpda(*make_scene(1, 10, 11, 1.0, 3.0)).approximate.any()
+    assert not jpda(*make_scene(1, 11, 10, 1.0, 3.0)).approximate.any()
+
+
+def test_belief_propagation_is_near_on_tight_clusters() -> None:
+    """It is off by 0.1 to 0.25 at worst, which is why it is not the default, and 0.02 at large."""
+    errors = []
+    for seed in range(100):
+        scene = make_scene(seed, 5, 6, 0.8, 4.0)
+        rough = jpda(*scene, largest=0)
+        assert rough.approximate.any()
+        errors.append(np.abs(rough.probability - jpda(*scene).probability))
+    worst, mean = np.max(np.concatenate(errors)), np.mean(np.concatenate(errors))
+    assert 0.01 < worst < 0.25
+    assert mean < 0.03
+
+
+@pytest.mark.parametrize('spread', [3.0, 1000.0])
+def test_belief_propagation_is_exact_without_loops(spread: float) -> None:
+    """A chain of tracks, each sharing a plot with the next, has no loops."""
+    track, plot = np.repeat(np.arange(7), 2), np.repeat(np.arange(8), 2)[1:-1]
+    _, _, log_weight, log_miss, _ = make_scene(6, 7, 2, 1.0, spread)
+    rough = jpda(track, plot, log_weight, log_miss, 8, largest=0)
+    assert rough.approximate.all()
+    assert_allclose(
+        rough.probability, jpda(track, plot, log_weight, log_miss, 8).probability, atol=1e-5
+    )
+
+
+def test_others_do_not_cancel() -> None:
+    """The sum of the others is right to the last digits beside a weight of 1e30."""
+    weight, group = np.array([1e30, 3e-5, 1e25, 2.0, 5.0]), np.array([0, 0, 1, 1, 1])
+    expected = [1.0 + 3e-5, 1e30, 8.0, 1e25, 1e25]
+    assert_allclose(others(weight, group, 2), expected, rtol=1e-15)
+    rest, total = log_others(np.log(weight), group, 2)
+    assert_allclose(rest, np.log(expected), rtol=1e-14)
+    assert_allclose(total, np.log([1e30, 1e25]), rtol=1e-14)
+
+
+@pytest.mark.parametrize('spread', [2.0, 30.0, 1000.0])
+def test_global_nearest_is_the_best_joint_event(spread: float) -> None:
+    """The assignment is the joint event with the greatest weight of all."""
+    for seed in range(60):
+        tracks, plots = 1 + seed % 5, 1 + seed % 6
+        scene = make_scene(seed, tracks, plots, (0.3, 0.7, 1.0)[seed % 3], spread)
+        weight, choice = enumerate_events(scene)
+        best = choice[np.argmax(weight)]
+        chosen = np.flatnonzero(global_nearest(*scene).probability)
+        assert_array_equal(chosen, np.sort(best[best >= 0]))
+
+
+def test_global_nearest_is_the_same_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Matching few clusters at a time changes nothing."""
+    scene = make_scene(9, 80, 90, 0.02, 5.0)
+    whole = global_nearest(*scene)
+    module = sys.modules['tracking_core.association.global_nearest']
+    monkeypatch.setattr(module, 'PART', 3)
+    assert_array_equal(global_nearest(*scene).probability, whole.probability)
+
+
+def test_global_nearest_leaves_a_plot_that_is_more_probably_clutter() -> None:
+    """A pair that weighs less than the miss is not taken, though nobody else wants the plot."""
+    zero = np.zeros(1, np.int64)
+    assert global_nearest(zero, zero, np.array([-2.0]), np.array([-1.0]), 1).miss[0] == 1.0
+    assert global_nearest(zero, zero, np.array([-0.5]), np.array([-1.0]), 1).miss[0] == 0.0

@@ -1,0 +1,130 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What are the exact marginals of a cluster? Tables are set up here and summed in ``tables.py``.
+
+The smaller side of a cluster, tracks or plots, is its *rows* (R), the other its *columns* (K).
+C clusters of equal R are computed at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracking_core.association.clusters import Contest
+from tracking_core.association.tables import (
+    Arithmetic,
+    LINEAR,
+    LOGARITHMIC,
+    SAFE_SUM,
+    sum_events,
+)
+from tracking_core.batches import Bools, Floats, Ints
+
+MEMORY = 2**22  # entries of all tables kept at once: 32 MB, and as much again while summing
+PADDING = 50_000  # additions that cost less than a batch of their own
+
+
+def marginalise(contest: Contest) -> Floats:
+    """
+    Return the exact probability of each pair, (P,).
+
+    References
+    ----------
+    The sums over joint events of [FORTMANN83], by dynamic programming over sets [HELD62].
+
+    """
+    layout = _lay_out(contest)
+    probability, safe = np.empty(len(contest.track)), np.ones(len(layout.rows), np.bool_)
+    for batch in _batches(layout, safe):
+        safe[batch] = _solve(layout, batch, LINEAR, probability)
+    for batch in _batches(layout, ~safe):
+        _solve(layout, batch, LOGARITHMIC, probability)
+    return probability
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """Where each pair stands in the tables of its cluster."""
+
+    rows: Ints  # (clusters,)
+    columns: Ints  # (clusters,)
+    cluster: Ints  # (P,)
+    row: Ints  # (P,)
+    column: Ints  # (P,)
+    upright: Bools  # (P,) rows are tracks, not plots
+    log_weight: Floats  # (P,) scaled so that it and `log_free` are at most 0
+    log_free: Floats  # (P,) of the track in no pair
+
+
+def _lay_out(contest: Contest) -> _Layout:
+    track_cluster, plot_cluster = contest.track_cluster(), contest.plot_cluster()
+    tracks, plots = np.bincount(track_cluster), np.bincount(plot_cluster)
+    track_rank = _rank(track_cluster, tracks)[contest.track]
+    plot_rank = _rank(plot_cluster, plots)[contest.plot]
+    upright = (tracks <= plots)[contest.cluster]
+    top = np.zeros(contest.tracks)
+    np.maximum.at(top, contest.track, contest.gain)
+    return _Layout(
+        rows=np.minimum(tracks, plots),
+        columns=np.maximum(tracks, plots),
+        cluster=contest.cluster,
+        row=np.where(upright, track_rank, plot_rank),
+        column=np.where(upright, plot_rank, track_rank),
+        upright=upright,
+        log_weight=contest.gain - top[contest.track],
+        log_free=-top[contest.track],
+    )
+
+
+def _rank(label: Ints, counts: Ints) -> Ints:
+    """Return the position of each element among those with the same label."""
+    order = np.argsort(label, kind='stable')
+    rank = np.empty(len(label), np.int64)
+    rank[order] = np.arange(len(label)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return rank
+
+
+def _batches(layout: _Layout, wanted: Bools) -> Iterator[Ints]:
+    """Yield clusters of alike rows and columns, few enough to fit into memory."""
+    batch, rows, columns = np.flatnonzero(wanted)[:0], 0, 0
+    kind = np.where(wanted, 64 * layout.rows + np.frexp(layout.columns)[1], -1)
+    for alike in np.unique(kind[wanted])[::-1]:
+        more = np.flatnonzero(kind == alike)
+        if rows * columns * len(more) << rows > PADDING:
+            yield from _split(batch, rows, columns)
+            batch, rows, columns = batch[:0], 0, 0
+        batch = np.append(batch, more)
+        rows = max(rows, int(layout.rows[more[0]]))
+        columns = max(columns, int(layout.columns[more].max()))
+    if len(batch):
+        yield from _split(batch, rows, columns)
+
+
+def _split(batch: Ints, rows: int, columns: int) -> list[Ints]:
+    size = max(1, MEMORY // ((2 * columns) << rows))
+    return np.split(batch, range(size, len(batch), size))
+
+
+def _solve(layout: _Layout, batch: Ints, arithmetic: Arithmetic, probability: Floats) -> Bools:
+    """Write the probabilities of the batch; return which of its clusters had a safe sum."""
+    place = np.full(len(layout.rows), -1)
+    place[batch] = np.arange(len(batch))
+    pairs = np.flatnonzero(place[layout.cluster] >= 0)
+    row, column, cluster = layout.row[pairs], layout.column[pairs], place[layout.cluster[pairs]]
+    rows, columns, size = layout.rows[batch].max(), layout.columns[batch].max(), len(batch)
+    weight = np.full((rows, columns, size), arithmetic.zero)
+    weight[row, column, cluster] = arithmetic.of_log(layout.log_weight[pairs])
+    free = arithmetic.of_log(layout.log_free[pairs])
+    free_row, free_column = (
+        np.full_like(weight[:, 0], arithmetic.one),
+        np.full_like(weight[0], arithmetic.one),
+    )
+    free_row[row, cluster] = np.where(layout.upright[pairs], free, arithmetic.one)
+    free_column[column, cluster] = np.where(layout.upright[pairs], arithmetic.one, free)
+    having, total = sum_events(weight, free_row, free_column, arithmetic)
+    probability[pairs] = arithmetic.share(having[row, column, cluster], total[cluster])
+    return np.asarray(total > SAFE_SUM)

@@ -1,0 +1,109 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How are joint events summed up? Tables over sets of rows, one for each column.
+
+Columns are handed out one after the other. All that matters of the past is which rows are
+taken, so a table has one entry for each set of rows (a bit mask): the sum over all ways to get
+there. All terms are positive: nothing cancels. The arithmetic is a parameter: sums and products,
+or the same in logarithms for weights whose products leave the range of floating point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracking_core.batches import Floats
+
+# No factor is above 1, so what underflows is an event below 1e-307: nothing, if the sum of all
+# events is above this.
+SAFE_SUM = 1e-280
+
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """What stands for sums and products in the tables."""
+
+    add: np.ufunc
+    multiply: np.ufunc
+    zero: float
+    one: float
+    of_log: Callable[[Floats], Floats]
+    share: Callable[[Floats, Floats], Floats]  # part of a sum and the sum, to probability
+
+
+def _share(part: Floats, total: Floats) -> Floats:
+    return part / np.maximum(total, SAFE_SUM)
+
+
+def _log_share(part: Floats, total: Floats) -> Floats:
+    return np.asarray(np.exp(part - total))
+
+
+LINEAR = Arithmetic(np.add, np.multiply, 0.0, 1.0, np.exp, _share)
+LOGARITHMIC = Arithmetic(np.logaddexp, np.add, -np.inf, 0.0, np.positive, _log_share)
+
+
+def sum_events(
+    weight: Floats, free_row: Floats, free_column: Floats, arithmetic: Arithmetic
+) -> tuple[Floats, Floats]:
+    """
+    Sum over the joint events of C clusters with R rows and K columns.
+
+    Parameters
+    ----------
+    weight : (R, K, C) array
+        Weight of the pair of a row and a column.
+    free_row, free_column : (R, C) and (K, C) arrays
+        Weight of a row or column that is in no pair.
+    arithmetic : Arithmetic
+        Of the weights and of the results.
+
+    Returns
+    -------
+    tuple of (R, K, C) and (C,) arrays
+        Sum of the events that have this pair, and of all events.
+
+    """
+    rows, columns, size = weight.shape
+    # From the first column to the last and from the last to the first, side by side. The tables
+    # on the way back are over the sets of rows that are still free, not of those taken.
+    tables = np.full((columns + 1, 1 << rows, 2 * size), arithmetic.zero)
+    tables[0, 0, :size] = arithmetic.one
+    tables[0, :, size:] = _idle(free_row, arithmetic)
+    both = np.concatenate([weight, weight[:, ::-1]], axis=2)
+    _fill(tables, both, np.hstack([free_column, free_column[::-1]]), arithmetic)
+    past, future = tables[:-1, ..., :size], tables[-2::-1, ::-1, size:]
+    having = np.empty_like(weight)
+    for row in range(rows):
+        ways = arithmetic.multiply(_split(past, row)[:, :, 0], _split(future, row)[:, :, 1])
+        ways = arithmetic.add.reduce(ways.reshape(columns, -1, size), axis=1)
+        arithmetic.multiply(ways, weight[row], out=having[row])
+    return having, tables[-1, -1, size:]
+
+
+def _split(tables: Floats, row: int) -> Floats:
+    """Return (K, hi, 2, lo, C): the sets without the row at 0, with it at 1 of the third axis."""
+    return tables.reshape(len(tables), -1, 2, 1 << row, tables.shape[-1])
+
+
+def _idle(free_row: Floats, arithmetic: Arithmetic) -> Floats:
+    """Return (2^R, C): the weight that all rows of the set stay in no pair."""
+    table = np.full((1, 1 << len(free_row), free_row.shape[1]), arithmetic.one)
+    for row, free in enumerate(free_row):
+        arithmetic.multiply(_split(table, row)[:, :, 1], free, out=_split(table, row)[:, :, 1])
+    return np.asarray(table[0])
+
+
+def _fill(tables: Floats, weight: Floats, free_column: Floats, arithmetic: Arithmetic) -> None:
+    """Compute table k + 1 from table k: column k stays free or takes one of the free rows."""
+    halves = [_split(tables, row) for row in range(len(weight))]
+    used = np.any(weight > arithmetic.zero, axis=2)
+    for k, free in enumerate(free_column):
+        arithmetic.multiply(tables[k], free, out=tables[k + 1])
+        for row in np.flatnonzero(used[:, k]):
+            without, having = halves[row][k, :, 0], halves[row][k + 1, :, 1]
+            arithmetic.add(having, arithmetic.multiply(without, weight[row, k]), out=having)

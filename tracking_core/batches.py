@@ -1,0 +1,248 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What does the tracker work on? Structs of arrays, one row per plot, track or pair.
+
+Axis letters: T tracks, J modes of one plane, M plots, P gated pairs, n state, d coordinates of a
+plot. Empty batches are legal everywhere. All arrays are float64 in SI units and ENU axes unless a
+comment says otherwise. Read ``tracker.py`` next.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Plots:
+    """
+    Radar plots of one message as the sensor reports them: sensor axes, angles anticlockwise.
+
+    Either polar (`range`, `azimuth`, perhaps `elevation`) or Cartesian (`position`); what the
+    sensor does not measure is NaN in every row, and so is a noise that the sensor does not tell.
+    """
+
+    time: Floats  # (M,) of each plot [s]
+    range: Floats  # (M,) slant range, ground range for a sensor without elevation [m]
+    azimuth: Floats  # (M,) [rad]
+    elevation: Floats  # (M,) [rad], NaN: not measured
+    position: Floats  # (M, 3) Cartesian plots [m]; NaN for polar ones, z NaN: not measured
+    range_rate: Floats  # (M,) positive receding [m/s]
+    snr: Floats  # (M,) [dB]
+    range_sd: Floats  # (M,) [m]
+    azimuth_sd: Floats  # (M,) [rad]
+    elevation_sd: Floats  # (M,) [rad]
+    range_rate_sd: Floats  # (M,) [m/s]
+    stamp: float = 0.0  # of the message [s]
+    frame: str = ''
+
+    @staticmethod
+    def polar(time: Floats, distance: Floats, azimuth: Floats, **columns: Floats) -> Plots:
+        """Return polar plots; `columns` are further fields by name, the rest is NaN."""
+        return Plots._of(len(time), time=time, range=distance, azimuth=azimuth, **columns)
+
+    @staticmethod
+    def cartesian(time: Floats, position: Floats, **columns: Floats) -> Plots:
+        """Return Cartesian plots from positions (M, 2) or (M, 3) [m]; the rest is NaN."""
+        full = np.full((len(time), 3), np.nan)
+        full[:, : position.shape[1]] = position
+        return Plots._of(len(time), time=time, position=full, **columns)
+
+    @staticmethod
+    def _of(rows: int, **columns: Floats) -> Plots:
+        absent = {
+            f.name: np.full(rows, np.nan)
+            for f in fields(Plots)
+            if f.name not in ('stamp', 'frame')
+        }
+        absent['position'] = np.full((rows, 3), np.nan)
+        return Plots(**{**absent, **columns})  # type: ignore[arg-type]
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """
+    Where and when a scan looked.
+
+    A rotating antenna points at `start_azimuth` at `start_time` and turns evenly by `sweep`
+    until `end_time`. A `sweep` of 0 is a sensor that looks everywhere at once.
+    """
+
+    start_time: float  # [s]
+    end_time: float  # [s]
+    start_azimuth: float = 0.0  # tracking axes [rad]
+    sweep: float = 0.0  # signed, anticlockwise positive [rad]
+    contiguous: bool = False  # goes on where the previous scan ended
+    sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # tracking frame [m]
+    range_min: float = 0.0  # [m]
+    range_max: float = np.inf  # [m]
+    sector_centre: float = 0.0  # what the sensor can see at all [rad]
+    sector_width: float = 2.0 * np.pi  # [rad]
+
+    @property
+    def rotation_rate(self) -> float:
+        """Antenna rate [rad/s], anticlockwise positive; 0 for a staring sensor."""
+        duration = self.end_time - self.start_time
+        return self.sweep / duration if self.sweep and duration > 0.0 else 0.0
+
+
+@dataclass(frozen=True)
+class Scan:
+    """Plots in the tracking frame with their covariances, and what the sensor looked at."""
+
+    time: Floats  # (M,) of each plot [s]
+    position: Floats  # (M, d) [m]; sonar: bearing [rad]
+    covariance: Floats  # (M, d, d)
+    range_rate: Floats  # (M,) positive receding [m/s], NaN: not measured
+    range_rate_variance: Floats  # (M,) [m^2/s^2]
+    snr: Floats  # (M,) [dB], NaN: not measured
+    clutter_volume: Floats  # (M,) plot-space volume of one unit of `position` space at the plot
+    sensor_position: Floats  # (M, 3) [m]
+    sensor_velocity: Floats  # (M, 3) [m/s]
+    coverage: Coverage
+    volume: float  # plot space of the whole coverage, what the clutter density is per
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@dataclass(frozen=True)
+class Mixture:
+    """One plane of every track: a Gaussian for each mode, and how likely each mode is."""
+
+    mean: Floats  # (T, J, n)
+    covariance: Floats  # (T, J, n, n)
+    mode_probability: Floats  # (T, J)
+    memory: Floats  # (T, k) what an estimator keeps beside; k = 0 for most
+
+    def moments(self) -> tuple[Floats, Floats]:
+        """Return mean (T, n) and covariance (T, n, n) of the mixture, spread of means included."""
+        mean = np.einsum('tj,tjn->tn', self.mode_probability, self.mean)
+        spread = self.mean - mean[:, None]
+        total = self.covariance + spread[..., :, None] * spread[..., None, :]
+        return mean, np.einsum('tj,tjnm->tnm', self.mode_probability, total)
+
+    def most_probable(self) -> tuple[Floats, Floats]:
+        """Return mean (T, n) and covariance (T, n, n) of the most probable mode."""
+        rows, best = np.arange(len(self.mean)), np.argmax(self.mode_probability, axis=1)
+        return self.mean[rows, best], self.covariance[rows, best]
+
+    def estimate(self, output: str) -> tuple[Floats, Floats]:
+        """Return `moments` for the output 'mmse', `most_probable` for 'map'."""
+        return self.moments() if output == 'mmse' else self.most_probable()
+
+
+@dataclass(frozen=True)
+class Tracks:
+    """Every track: identity, planes, existence and what its last gate looked like."""
+
+    id: Ints  # (T,) never reused
+    time: Floats  # (T,) of the state: when the sensor last looked there [s]
+    birth_time: Floats  # (T,) [s]
+    planes: tuple[Mixture, ...]  # horizontal (x, vx, y, vy), vertical (z, vz); sonar: one
+    existence_probability: Floats  # (T,)
+    confirmed: Bools  # (T,)
+    hits: Ints  # (T,) looks with a plot
+    misses: Ints  # (T,) looks in a row without one
+    history: Ints  # (T,) the last looks as bits, newest lowest, 1 = plot
+    gate_size: Floats  # (T, d) half size of the 3-sigma gate of the last look
+    gate_volume: Floats  # (T,) of the chi-square gate of the last look
+    nis: Floats  # (T,) normalised innovation squared of the last look, NaN: none
+
+    def __len__(self) -> int:
+        return len(self.id)
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """Track-plot pairs inside a gate, sorted by track, then plot."""
+
+    track: Ints  # (P,) row of the track
+    plot: Ints  # (P,) row of the plot
+    lag: Floats  # (P,) time of the plot after the time of the predicted track [s]
+
+    def __len__(self) -> int:
+        return len(self.track)
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What the pairs measure of one plane: z = H x + noise."""
+
+    value: Floats  # (P, d)
+    matrix: Floats  # (P, d, n), H with the motion between track time and plot time in it
+    covariance: Floats  # (P, d, d)
+    absent: Ints  # (P,) number of components that this plot does not have (rows of zeros)
+
+
+@dataclass(frozen=True)
+class Innovations:
+    """How far the pairs of one plane are from their prediction, mode by mode."""
+
+    innovation: Floats  # (P, J, d)
+    covariance: Floats  # (P, J, d, d)
+    distance: Floats  # (P, J) Mahalanobis squared
+    log_likelihood: Floats  # (P, J) of the plot given track and mode
+    cross_covariance: Floats  # (P, J, n, d) of state and plot, P H^T
+
+
+@dataclass(frozen=True)
+class Association:
+    """How the plots are shared among the tracks."""
+
+    probability: Floats  # (P,) posterior that this pair is right
+    miss: Floats  # (T,) posterior that no plot is the track's; with its pairs it sums to 1
+    approximate: Bools  # (T,) belief propagation stood in for exact marginals
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """Plots that no track claimed: the first points of tracks to come."""
+
+    time: Floats  # (S,) [s]
+    position: Floats  # (S, d)
+    covariance: Floats  # (S, d, d)
+    free: Floats  # (S,) chance that no known contact made the plot
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@dataclass(frozen=True)
+class StepReport:
+    """What the last step did, for diagnostics."""
+
+    plots: int = 0  # used in this step
+    held: int = 0  # kept for the next scan: their antenna pass is not over
+    pairs: int = 0
+    approximate: int = 0  # tracks whose marginals are from belief propagation
+    started: int = 0
+    merged: int = 0
+    refused: int = 0  # new tracks that did not fit in max_tracks
+    broken: int = 0  # tracks dropped because a covariance was not positive definite
+    clutter_density: float = 0.0  # per unit of plot space, as used
+    deleted: Ints = field(default_factory=lambda: np.zeros(0, np.int64))  # (D,) ids
+
+
+@dataclass(frozen=True)
+class State:
+    """All that a tracker remembers; saving it saves the tracker."""
+
+    tracks: Tracks
+    seeds: Seeds
+    held: Scan | None = None  # plots whose antenna pass was not over
+    next_id: int = 1
+    clutter_density: float = 0.0  # estimate so far, per unit of plot space
+    clutter_looks: float = 0.0  # full looks that the estimate is from
+    time: float = -np.inf  # end of the last scan [s]
+    report: StepReport = field(default_factory=StepReport)

@@ -1,0 +1,57 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is a tracker made of? The parts that do not change from scan to scan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tracking_core.association import Associator
+from tracking_core.estimators import Estimator
+from tracking_core.lifecycle import Lifecycle
+from tracking_core.lifecycle_config import InitiationConfig
+from tracking_core.sensing import Sensor
+
+
+@dataclass(frozen=True)
+class Plane:
+    """Coordinates of the plots that one estimator follows, apart from the other planes."""
+
+    estimator: Estimator
+    coordinates: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Sensor, filters and rules of one tracker."""
+
+    sensor: Sensor
+    planes: tuple[Plane, ...]
+    associate: Associator
+    is_soft: bool  # associate shares a plot among tracks (PDA, JPDA), it does not decide
+    lifecycle: Lifecycle
+    initiation: InitiationConfig
+    gate_probability: float  # P_G
+    clutter_density: float  # per unit of plot space and look; 0: estimated
+    new_contacts: float  # expected in the whole coverage [1/s]
+    least_existence: float  # of a new track
+    merge_distance: float
+    max_tracks: int
+
+
+@dataclass(frozen=True)
+class Density:
+    """Sources of plots other than known contacts, per unit of plot space and look."""
+
+    clutter: float
+    new_contacts: float
+
+    @property
+    def total(self) -> float:
+        """Density of all plots that no known contact makes."""
+        return self.clutter + self.new_contacts
+
+    @property
+    def existence(self) -> float:
+        """Chance that a plot of no known contact is from a new one."""
+        return self.new_contacts / self.total

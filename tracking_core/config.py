@@ -1,0 +1,139 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How is a parameter written once? A dataclass field with unit, meaning and range beside it.
+
+`parameters` walks nested config dataclasses into dotted names, `with_values` builds a config from
+such names; both serve nodes, replay, documentation and tests alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from difflib import get_close_matches
+from typing import Any, TypeVar
+
+import numpy as np
+
+Config = TypeVar('Config')
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter as a user sees it."""
+
+    name: str  # dotted
+    value: Any
+    unit: str
+    doc: str
+    low: float | None
+    high: float | None
+    choices: tuple[str, ...]
+    live: bool  # may change while the node runs
+
+
+def parameter(
+    default: Any,
+    *,
+    unit: str,
+    doc: str,
+    low: float | None = None,
+    high: float | None = None,
+    choices: tuple[str, ...] = (),
+    live: bool = False,
+) -> Any:
+    """Return a dataclass field with its unit, meaning and limits [low, high] as metadata."""
+    meta = {
+        'unit': unit, 'doc': doc, 'low': low, 'high': high, 'choices': choices, 'live': live,
+    }  # fmt: skip
+    return field(default=default, metadata=meta)
+
+
+def validate(config: Any) -> None:
+    """
+    Check every parameter of one config dataclass against its type, limits and choices.
+
+    Raises
+    ------
+    ValueError
+        Says field, allowed and got.
+
+    """
+    for f in fields(config):
+        if 'unit' in f.metadata:
+            _check(f'{type(config).__name__}.{f.name}', getattr(config, f.name), f)
+
+
+def _check(name: str, value: Any, f: Any) -> None:
+    meta = f.metadata
+    if meta['choices'] and value not in meta['choices']:
+        raise ValueError(f'{name} must be one of {", ".join(meta["choices"])}, got {value!r}')
+    is_tuple = isinstance(f.default, tuple)
+    for number in value if is_tuple else (value,):
+        if isinstance(f.default, (str, bool)):
+            if not isinstance(number, type(f.default)):
+                raise ValueError(f'{name} must be a {type(f.default).__name__}, got {number!r}')
+            continue
+        if not isinstance(number, (int, float)) or isinstance(number, bool):
+            raise ValueError(f'{name} must be a number, got {number!r}')
+        low = -np.inf if meta['low'] is None else meta['low']
+        high = np.inf if meta['high'] is None else meta['high']
+        if not low <= number <= high:
+            raise ValueError(f'{name} must be in [{low}, {high}] {meta["unit"]}, got {number}')
+
+
+def parameters(config: Any, prefix: str = '') -> Iterator[Parameter]:
+    """Yield every parameter of a config and of the configs nested in it, in order."""
+    for f in fields(config):
+        value = getattr(config, f.name)
+        if is_dataclass(value):
+            yield from parameters(value, f'{prefix}{f.name}.')
+        else:
+            m = f.metadata
+            yield Parameter(
+                prefix + f.name, value, m['unit'], m['doc'], m['low'], m['high'], m['choices'],
+                m['live'],
+            )  # fmt: skip
+
+
+def with_values(config: Config, values: Mapping[str, Any]) -> Config:
+    """
+    Return the config with these parameters set, by dotted name.
+
+    An int is accepted for a float and a list for a tuple.
+
+    Raises
+    ------
+    ValueError
+        For an unknown name (the nearest known one is named) or a value outside its limits.
+
+    """
+    known = [p.name for p in parameters(config)]
+    for name in values:
+        if name not in known:
+            near = get_close_matches(name, known, 1)
+            hint = f'; did you mean {near[0]}?' if near else ''
+            raise ValueError(f'unknown parameter {name}{hint}')
+    return _with_values(config, dict(values), '')
+
+
+def _with_values(config: Config, values: dict[str, Any], prefix: str) -> Config:
+    changed: dict[str, Any] = {}
+    for f in fields(config):  # type: ignore[arg-type]
+        old = getattr(config, f.name)
+        if is_dataclass(old):
+            changed[f.name] = _with_values(old, values, f'{prefix}{f.name}.')
+        elif prefix + f.name in values:
+            changed[f.name] = coerce(values[prefix + f.name], old)
+    return replace(config, **changed)  # type: ignore[type-var]
+
+
+def coerce(value: Any, like: Any) -> Any:
+    """Return the value in the type of `like`: int to float, list or array to tuple."""
+    if isinstance(like, tuple):
+        items = [value] if np.isscalar(value) else list(value)
+        return tuple(coerce(item, like[0]) if like else item for item in items)
+    if isinstance(like, float) and isinstance(value, int) and not isinstance(value, bool):
+        return float(value)
+    return value

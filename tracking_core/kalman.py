@@ -1,0 +1,131 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How do plots, each only perhaps the right one, change the Gaussians of a plane?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
+from tracking_core.linalg import inverse, sum_by_track, symmetrise
+
+_LOG_TWO_PI = float(np.log(2.0 * np.pi))
+_LEAST_MODE_PROBABILITY = 1e-300  # divides nothing by zero; such a mode has no weight anyway
+
+
+def innovate(mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
+    """
+    Compare the pairs with every mode's prediction.
+
+    Parameters
+    ----------
+    mixture : Mixture
+        Predicted plane.
+    track : (P,) array
+        Row of each pair's track.
+    measurement : Measurement
+        What the pairs measure of this plane.
+
+    Returns
+    -------
+    Innovations
+        The log likelihood counts only the components that a plot has.
+
+    References
+    ----------
+    [ZHUK09] eq. 22 to 24 with the sign, S^-1 and (2 pi)^(d/2) that print lacks.
+
+    """
+    H = measurement.matrix[:, None]  # (P, 1, d, n)
+    cross = mixture.covariance[track] @ np.swapaxes(H, -1, -2)  # P H^T
+    S = H @ cross + measurement.covariance[:, None]
+    nu = measurement.value[:, None] - (H @ mixture.mean[track][..., None])[..., 0]
+    return from_innovation(nu, S, cross, measurement.absent)
+
+
+def from_innovation(nu: Floats, S: Floats, cross: Floats, absent: Ints) -> Innovations:
+    """Return distances and likelihoods of innovations nu (P, J, d) with covariance S."""
+    S_inverse, determinant = inverse(S)
+    distance = np.einsum('pjd,pjde,pje->pj', nu, S_inverse, nu)
+    present = nu.shape[-1] - absent[:, None]
+    log_likelihood = -0.5 * (distance + np.log(determinant) + present * _LOG_TWO_PI)
+    return Innovations(nu, S, distance, log_likelihood, cross)
+
+
+def mixture_log_likelihood(mode_probability: Floats, innovations: Innovations) -> Floats:
+    """Return log sum_j mu_j Lambda_j (P,), the likelihood of a pair; mu (P, J)."""
+    weight = log(mode_probability) + innovations.log_likelihood
+    top = weight.max(axis=1)
+    return np.asarray(top + np.log(np.exp(weight - top[:, None]).sum(axis=1)))
+
+
+def log(probability: Floats) -> Floats:
+    """Return the logarithm, with the least float for 0."""
+    return np.asarray(np.log(np.maximum(probability, _LEAST_MODE_PROBABILITY)))
+
+
+def kalman_gain(innovations: Innovations) -> Floats:
+    """Return K = P H^T S^-1 (P, J, n, d)."""
+    S_inverse, _ = inverse(innovations.covariance)
+    return np.asarray(innovations.cross_covariance @ S_inverse)
+
+
+def condition(
+    mixture: Mixture,
+    track: Ints,
+    innovations: Innovations,
+    association: Association,
+    gain: Floats,
+) -> Mixture:
+    """
+    Update every mode with the plots of its track, weighted by their association probability.
+
+    The covariance after a plot with gain K is P - K C^T - C K^T + K S K^T, C = P H^T, which holds
+    for any gain and is P - K S K^T for Kalman's.
+
+    Parameters
+    ----------
+    mixture : Mixture
+        Predicted plane, T tracks.
+    track : (P,) array
+        Row of each pair's track, sorted.
+    innovations : Innovations
+        Of the pairs.
+    association : Association
+        Given that the tracks exist: per track miss + sum of probabilities = 1.
+    gain : (P, J, n, d) array
+        K of every pair and mode.
+
+    Returns
+    -------
+    Mixture
+        Posterior: mode probabilities, and per mode the moment-matched mixture over the plots.
+
+    References
+    ----------
+    [ZHUK09] eq. 22 to 24; mode-conditioned association weights as in IMM-JPDA.
+
+    """
+    T, prior = len(mixture.mean), mixture.mode_probability
+    weight = log(prior)[track] + innovations.log_likelihood
+    weight = np.exp(weight - weight.max(axis=1, keepdims=True, initial=-np.inf))
+    weight *= (association.probability / weight.sum(axis=1))[:, None]  # (P, J)
+    posterior = association.miss[:, None] * prior + sum_by_track(weight, track, T)
+    safe = np.maximum(posterior, _LEAST_MODE_PROBABILITY)
+    weight = weight / safe[track]
+
+    shift = (gain @ innovations.innovation[..., None])[..., 0]  # K nu
+    K_cross = gain @ np.swapaxes(innovations.cross_covariance, -1, -2)
+    K_S = gain @ innovations.covariance
+    change = K_S @ np.swapaxes(gain, -1, -2) - K_cross - np.swapaxes(K_cross, -1, -2)
+    change += shift[..., :, None] * shift[..., None, :]
+    mean_shift = sum_by_track(weight[..., None] * shift, track, T)
+    covariance = mixture.covariance + sum_by_track(weight[..., None, None] * change, track, T)
+    covariance -= mean_shift[..., :, None] * mean_shift[..., None, :]
+    total = posterior.sum(axis=1, keepdims=True)
+    return Mixture(
+        mean=mixture.mean + mean_shift,
+        covariance=symmetrise(covariance),
+        mode_probability=posterior / np.maximum(total, _LEAST_MODE_PROBABILITY),
+        memory=mixture.memory,
+    )

@@ -1,0 +1,124 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Is a track real, confirmed, or to be deleted? Two answers: existence probability, M of N."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from tracking_core.batches import Bools, Floats, Ints, Tracks
+from tracking_core.lifecycle_config import ExistenceConfig, MOfNConfig
+
+_HISTORY = (1 << 60) - 1  # looks remembered as bits
+_OUTSIDE_LOOKS = 5  # looks outside the coverage after which a track has left
+
+
+class Lifecycle(Protocol):
+    """What a tracker asks about the life of its tracks."""
+
+    def prior(self, tracks: Tracks, dt: Floats) -> Floats:
+        """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
+        ...
+
+    def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
+        """Return which tracks (T,) are confirmed and which are to be deleted."""
+        ...
+
+
+@dataclass(frozen=True)
+class Existence:
+    """
+    Integrated existence probability (IPDA, JIPDA): a track is as real as its plots say.
+
+    Contacts leave the coverage after `lifetime` on average, so that an existence probability never
+    sticks at 1.
+    """
+
+    config: ExistenceConfig
+
+    def prior(self, tracks: Tracks, dt: Floats) -> Floats:
+        """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
+        survival = np.exp(-np.maximum(dt, 0.0) / self.config.lifetime)
+        return np.asarray(tracks.existence_probability * survival)
+
+    def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
+        """Return which tracks (T,) are confirmed and which are to be deleted."""
+        confirmed = tracks.confirmed | (existence >= self.config.confirm)
+        return confirmed, existence < self.config.drop
+
+
+@dataclass(frozen=True)
+class MOfN:
+    """Confirmed by M plots in N looks; deleted when that can no longer come, or after misses."""
+
+    config: MOfNConfig
+
+    def prior(self, tracks: Tracks, dt: Floats) -> Floats:
+        """Return 1 (T,): counting knows no doubt."""
+        return np.ones(len(tracks))
+
+    def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
+        """Return which tracks (T,) are confirmed and which are to be deleted."""
+        window = np.int64((1 << self.config.looks) - 1)
+        confirmed = tracks.confirmed | (_ones(tracks.history & window) >= self.config.hits)
+        hopeless = tracks.misses > self.config.looks - self.config.hits
+        lost = tracks.misses >= self.config.drop_misses
+        return confirmed, np.where(confirmed, lost, hopeless)
+
+
+LIFECYCLES = {'existence': Existence, 'm_of_n': MOfN}
+
+
+def _ones(bits: Ints) -> Ints:
+    """Return the number of set bits of each (T,)."""
+    return np.asarray((bits[:, None] >> np.arange(60) & 1).sum(axis=1))
+
+
+def existence_after(
+    prior: Floats, miss: Floats, found: Floats, detection: Floats
+) -> tuple[Floats, Floats]:
+    """
+    Return existence probability after a look, and the chance that an existing contact was missed.
+
+    Parameters
+    ----------
+    prior : (T,) array
+        Existence probability r before the look.
+    miss : (T,) array
+        Posterior that no plot is the track's, because it was missed or does not exist.
+    found : (T,) array
+        Posterior that one of the plots is the track's and that the contact exists.
+    detection : (T,) array
+        P_D P_G.
+
+    Returns
+    -------
+    existence, missed : (T,) arrays
+        `missed` is conditional on existence: 1 - missed is the weight of the plots.
+
+    References
+    ----------
+    [MUSICKI04]
+
+    """
+    unseen = miss * (1.0 - detection) * prior / (1.0 - detection * prior)
+    existence = found + unseen
+    return existence, unseen / np.maximum(existence, 1e-300)
+
+
+def count_looks(tracks: Tracks, hit: Bools) -> Tracks:
+    """Return the tracks with this look in hits, misses and history."""
+    return replace(
+        tracks,
+        hits=tracks.hits + hit,
+        misses=np.where(hit, 0, tracks.misses + 1),
+        history=(tracks.history << 1 | hit) & _HISTORY,
+    )
+
+
+def has_left(tracks: Tracks, inside: Bools) -> Bools:
+    """Return which tracks (T,) are outside the coverage and were not seen for some looks."""
+    return np.asarray(~inside & (tracks.misses >= _OUTSIDE_LOOKS))

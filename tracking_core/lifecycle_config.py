@@ -1,0 +1,102 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which parameters do gate, lifecycle, initiation and merging share between the trackers?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tracking_core.config import parameter, validate
+
+
+@dataclass(frozen=True)
+class GateConfig:
+    """How far from its prediction a plot may fall and still belong to a track."""
+
+    probability: float = parameter(
+        0.997, unit='1', doc='chance that the true plot falls inside', low=0.5, high=0.999999,
+        live=True,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class ExistenceConfig:
+    """When a track is believed: integrated existence probability (JIPDA)."""
+
+    new_contacts: float = parameter(
+        60.0, unit='1/h', doc='new contacts expected in the whole coverage', low=1e-3, live=True
+    )
+    lifetime: float = parameter(
+        3600.0, unit='s', doc='mean time that a contact stays in the coverage', low=1.0, live=True
+    )
+    confirm: float = parameter(
+        0.98, unit='1', doc='a track at or above is confirmed', low=0.5, high=0.999999, live=True
+    )
+    drop: float = parameter(
+        0.02, unit='1', doc='a track below is deleted', low=1e-9, high=0.5, live=True
+    )
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class MOfNConfig:
+    """When a track is believed: plots counted in its last looks."""
+
+    hits: int = parameter(3, unit='1', doc='plots that confirm a track', low=1, high=60, live=True)
+    looks: int = parameter(5, unit='1', doc='... within so many looks', low=1, high=60, live=True)
+    drop_misses: int = parameter(
+        5, unit='1', doc='a confirmed track is deleted after so many misses in a row', low=1,
+        high=60, live=True,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+        if self.hits > self.looks:
+            raise ValueError(f'MOfNConfig.hits must be at most looks = {self.looks}, '
+                             f'got {self.hits}')  # fmt: skip
+
+
+@dataclass(frozen=True)
+class InitiationConfig:
+    """How tracks start from plots that no track claimed."""
+
+    method: str = parameter(
+        'two_point', unit='', choices=('two_point', 'one_point'),
+        doc='from two plots in successive looks, or from one with a velocity prior',
+    )  # fmt: skip
+    speed_max: float = parameter(
+        600.0, unit='m/s', doc='fastest contact to start on', low=0.1, live=True
+    )
+    climb_max: float = parameter(
+        100.0, unit='m/s', doc='steepest climb or descent to start on (3-D)', low=0.1, live=True
+    )
+    memory: float = parameter(
+        2.5, unit='looks', doc='how long an unclaimed plot may wait for its second', low=1.0,
+        high=10.0, live=True,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class MergeConfig:
+    """When two tracks are one contact."""
+
+    distance: float = parameter(
+        1.0, unit='1', low=0.0, high=10.0, live=True,
+        doc='states closer than this Mahalanobis distance are duplicates; 0: never merge',
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)

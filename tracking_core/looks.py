@@ -1,0 +1,107 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+When did the antenna look at each track?
+
+A message is not a look: where a message is cut, a contact can be in it twice or not at all. What
+counts is the antenna, which passes every track once a turn. A track is *due* once the antenna has
+left its gate behind, *open* while the gate is only partly swept, and otherwise not yet concerned.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracking_core.batches import Bools, Coverage, Floats
+from tracking_core.linalg import wrap_angle
+
+LARGEST_MARGIN = 1.0 / 8.0  # of a turn: a gate about the sensor itself is not waited for longer
+LONGEST_WAIT = 1.0 / 4.0  # of a turn: then a track no longer waits for open neighbours
+
+
+@dataclass(frozen=True)
+class Looks:
+    """The next look at each track, (T,) arrays."""
+
+    time: Floats  # when the antenna points at the track [s]
+    near: Bools  # the look, or the margin before it, has begun
+
+
+def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Coverage) -> Looks:
+    """
+    Find when the antenna passes each track for the first time after its last look.
+
+    Parameters
+    ----------
+    position, velocity : (T, 2) arrays
+        Horizontal state in the tracking frame [m, m/s].
+    time : (T,) array
+        Of the state, which is the last look [s].
+    coverage : Coverage
+        What the scan swept.
+
+    """
+    rate = coverage.rotation_rate
+    if rate == 0.0:
+        middle = 0.5 * (coverage.start_time + coverage.end_time)
+        return Looks(np.full(len(time), middle), np.ones(len(time), bool))
+    period = 2.0 * np.pi / abs(rate)
+    latest = np.full(len(time), coverage.end_time)
+    for _ in range(2):  # the contact moves while the antenna turns
+        azimuth = _azimuth(position + velocity * (latest - time)[:, None], coverage)
+        latest = coverage.end_time - _travel(azimuth, coverage) / abs(rate)
+    margin = LARGEST_MARGIN * period
+    earliest = np.maximum(
+        time + 0.5 * period, coverage.start_time - (margin if coverage.contiguous else 0.0)
+    )
+    turns = np.ceil((earliest - latest) / period - 1e-9)
+    passed = latest + np.maximum(turns, -1.0) * period
+    return Looks(passed, passed - margin < coverage.end_time)
+
+
+def _azimuth(position: Floats, coverage: Coverage) -> Floats:
+    x, y = coverage.sensor_position[:2]
+    return np.asarray(np.arctan2(position[:, 1] - y, position[:, 0] - x))
+
+
+def _travel(azimuth: Floats, coverage: Coverage) -> Floats:
+    """Return the angle in [0, 2 pi) that the antenna has turned since it pointed there."""
+    end = coverage.start_azimuth + coverage.sweep
+    return np.asarray(((end - azimuth) * np.sign(coverage.sweep)) % (2.0 * np.pi))
+
+
+def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
+    """
+    Return how long the antenna needs from a track's middle to the edge of its gate (T,) [s].
+
+    Parameters
+    ----------
+    position : (T, 2) array
+        Predicted [m].
+    half_size : (T,) array
+        Largest half size of the gate [m].
+    coverage : Coverage
+        What the scan swept.
+
+    """
+    rate = abs(coverage.rotation_rate)
+    if rate == 0.0:
+        return np.zeros(len(position))
+    distance = np.linalg.norm(position - np.array(coverage.sensor_position[:2]), axis=1)
+    angle = np.arctan2(half_size, distance)
+    return np.asarray(np.minimum(angle, LARGEST_MARGIN * 2.0 * np.pi) / rate)
+
+
+def inside_coverage(position: Floats, coverage: Coverage) -> Bools:
+    """Return for positions (T, 2) or (T, 3) whether the sensor can see there at all."""
+    offset = position - np.array(coverage.sensor_position[: position.shape[1]])
+    distance = np.linalg.norm(offset, axis=1)
+    angle = np.arctan2(offset[:, 1], offset[:, 0])
+    off_centre = np.abs(wrap_angle(angle - coverage.sector_centre))
+    return np.asarray(
+        (distance >= coverage.range_min)
+        & (distance <= coverage.range_max)
+        & (off_centre <= 0.5 * coverage.sector_width + 1e-12)
+    )

@@ -1,0 +1,110 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What do the plots measure of one plane? Position at the plot's own time, perhaps range rate."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tracking_core.batches import Floats, Measurement, Pairs, Scan
+
+
+def of_plane(coordinates: tuple[int, ...], pairs: Pairs, scan: Scan) -> Measurement:
+    """
+    Measure the position of a plane, z = position + velocity times lag.
+
+    The track stands at the time of its look, the plot at its own; H moves the track over this
+    small lag, so that every plot is used at its own time.
+
+    Parameters
+    ----------
+    coordinates : tuple of int
+        Coordinates of `scan.position` that belong to the plane.
+    pairs : Pairs
+        P pairs.
+    scan : Scan
+        Plots; a coordinate that is NaN is absent.
+
+    Returns
+    -------
+    Measurement
+        Absent components have a row of zeros, value 0 and variance 1.
+
+    """
+    d = len(coordinates)
+    at = np.array(coordinates)
+    value = scan.position[pairs.plot][:, at]
+    covariance = scan.covariance[pairs.plot][:, at[:, None], at[None, :]]
+    matrix = np.zeros((len(pairs), d, 2 * d))
+    axis = np.arange(d)
+    matrix[:, axis, 2 * axis] = 1.0
+    matrix[:, axis, 2 * axis + 1] = pairs.lag[:, None]
+    return _without_absent(value, matrix, covariance)
+
+
+def with_range_rate(
+    measurement: Measurement,
+    coordinates: tuple[int, ...],
+    pairs: Pairs,
+    scan: Scan,
+    velocity: Floats,
+    velocity_variance: Floats,
+) -> Measurement:
+    """
+    Append range rate as one more component of the plane: u (v - v_sensor) along the line of sight.
+
+    Velocity outside the plane is taken as predicted, its variance added to the noise; so is what
+    the noise of the plot's position does to the line of sight.
+
+    Parameters
+    ----------
+    measurement : Measurement
+        Position of the plane.
+    coordinates : tuple of int
+        Coordinates of the plane.
+    pairs : Pairs
+        P pairs.
+    scan : Scan
+        Plots with `range_rate`, NaN where absent.
+    velocity, velocity_variance : (P, d) arrays
+        Predicted velocity in all coordinates of the scan [m/s, m^2/s^2].
+
+    """
+    d, rows = scan.position.shape[1], pairs.plot
+    inside = np.isin(np.arange(d), coordinates)
+    line = np.nan_to_num(scan.position[rows] - scan.sensor_position[rows, :d])
+    distance = np.maximum(np.linalg.norm(line, axis=1), 1.0)
+    sight = line / distance[:, None]
+    platform = (sight * scan.sensor_velocity[rows, :d]).sum(axis=1)
+    outside = (sight * velocity)[:, ~inside].sum(axis=1)
+    value = scan.range_rate[rows] + platform - outside
+
+    noise = np.nan_to_num(scan.covariance[rows])
+    across = np.einsum('pd,pde,pe->p', velocity, noise, velocity) / distance**2
+    variance = scan.range_rate_variance[rows] + across
+    variance += (sight**2 * velocity_variance)[:, ~inside].sum(axis=1)
+
+    row = np.zeros((len(pairs), 1, measurement.matrix.shape[2]))
+    row[:, 0, 1::2] = sight[:, inside]
+    return _append(measurement, value, row, variance)
+
+
+def _append(old: Measurement, value: Floats, row: Floats, variance: Floats) -> Measurement:
+    P, d = old.value.shape
+    covariance = np.zeros((P, d + 1, d + 1))
+    covariance[:, :d, :d], covariance[:, d, d] = old.covariance, variance
+    full = np.concatenate([old.value, value[:, None]], axis=1)
+    new = _without_absent(full, np.concatenate([old.matrix, row], axis=1), covariance)
+    return Measurement(new.value, new.matrix, new.covariance, new.absent + old.absent)
+
+
+def _without_absent(value: Floats, matrix: Floats, covariance: Floats) -> Measurement:
+    """Neutralise NaN components: nothing measured, noise of variance 1 apart from the rest."""
+    absent = np.isnan(value)
+    count = absent.sum(axis=1)
+    if count.any():
+        value, matrix = np.where(absent, 0.0, value), np.where(absent[..., None], 0.0, matrix)
+        covariance = np.where(absent[..., :, None] | absent[..., None, :], 0.0, covariance)
+        axis = np.arange(value.shape[1])
+        covariance[:, axis, axis] = np.where(absent, 1.0, covariance[:, axis, axis])
+    return Measurement(value, matrix, covariance, count)

@@ -1,0 +1,58 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which tracks follow the same contact?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tracking_core.batches import Bools, Floats, Ints, Tracks
+from tracking_core.gating import box_pairs
+from tracking_core.linalg import symmetrise
+
+
+def duplicates(tracks: Tracks, distance: float) -> Bools:
+    """
+    Return which tracks (T,) are second ones on a contact that an older or surer track follows.
+
+    Two tracks are one when their states are within `distance` (Mahalanobis, in the sum of their
+    covariances) in every plane.
+    """
+    T = len(tracks)
+    lost = np.zeros(T, bool)
+    if distance == 0.0 or T < 2:
+        return lost
+    moments = [plane.moments() for plane in tracks.planes]
+    mean, covariance = moments[0]
+    position = mean[:, 0::2]
+    sd = np.sqrt(np.einsum('tnn->tn', covariance)[:, 0::2])
+    first, second = box_pairs(position, 2.0 * distance * sd, position)
+    apart = first < second
+    first, second = first[apart], second[apart]
+    if len(first) == 0:
+        return lost
+    close = np.ones(len(first), bool)
+    dt = tracks.time[second] - tracks.time[first]
+    for m, P in moments:
+        close &= _distance_squared(m, P, first, second, dt) <= distance**2 * m.shape[1]
+    first, second = first[close], second[close]
+    rank = _rank(tracks)
+    lost[np.where(rank[first] < rank[second], second, first)] = True
+    return lost
+
+
+def _distance_squared(mean: Floats, P: Floats, first: Ints, second: Ints, dt: Floats) -> Floats:
+    """Return the squared distance of track pairs, the earlier moved to the later's time."""
+    moved = mean[first].copy()
+    moved[:, 0::2] += moved[:, 1::2] * dt[:, None]
+    delta = mean[second] - moved
+    total = symmetrise(P[first] + P[second])
+    return np.asarray((delta * np.linalg.solve(total, delta[..., None])[..., 0]).sum(axis=1))
+
+
+def _rank(tracks: Tracks) -> Ints:
+    """Return places (T,): confirmed before tentative, then by hits, then by age."""
+    order = np.lexsort((tracks.id, -tracks.hits, ~tracks.confirmed))
+    rank = np.empty(len(order), np.int64)
+    rank[order] = np.arange(len(order))
+    return rank

@@ -1,0 +1,141 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Where the sensor's platform was at the time of each plot.
+
+Samples are kept in order of time and in bounded number; between them positions are linear and
+orientations turn evenly, beyond the last one they go on for a bounded time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from tracking_core.batches import Floats
+
+
+class StalePlatform(ValueError):  # noqa: N818 (it is the platform's data that are stale)
+    """No sample of the platform is near enough to the wanted time; says age and limit."""
+
+
+@dataclass(frozen=True)
+class PlatformPose:
+    """Platform at the times asked for."""
+
+    position: Floats  # (M, 3) tracking frame [m]
+    orientation: Floats  # (M, 4) quaternion x y z w, platform axes to tracking axes
+    velocity: Floats  # (M, 3) tracking frame [m/s]
+    position_covariance: Floats  # (M, 3, 3) [m^2]
+    yaw_variance: Floats  # (M,) [rad^2]
+
+    @property
+    def yaw(self) -> Floats:
+        """Heading (M,), anticlockwise from x [rad]."""
+        x, y, z, w = self.orientation.T
+        return np.asarray(np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)))
+
+
+@dataclass(frozen=True)
+class Platform:
+    """Samples of a moving platform, oldest first."""
+
+    time: Floats  # (K,) [s]
+    position: Floats  # (K, 3) tracking frame [m]
+    orientation: Floats  # (K, 4) quaternion x y z w, platform axes to tracking axes
+    velocity: Floats  # (K, 3) tracking frame [m/s]
+    position_covariance: Floats  # (K, 3, 3) [m^2]
+    yaw_variance: Floats  # (K,) [rad^2]
+    max_extrapolation: float = 2.0  # beyond the newest or oldest sample [s]
+    capacity: int = 1000  # samples kept
+
+    @staticmethod
+    def empty(max_extrapolation: float = 2.0, capacity: int = 1000) -> Platform:
+        """Return a platform of which nothing is known yet."""
+        return Platform(
+            np.zeros(0), np.zeros((0, 3)), np.zeros((0, 4)), np.zeros((0, 3)),
+            np.zeros((0, 3, 3)), np.zeros(0), max_extrapolation, capacity,
+        )  # fmt: skip
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def add(self, sample: Platform) -> Platform:
+        """
+        Return the platform with these samples, the oldest dropped beyond the capacity.
+
+        Samples may come late; of two at one time the newer message wins.
+        """
+        joined = {
+            name: np.concatenate([getattr(sample, name), getattr(self, name)]) for name in _ARRAYS
+        }
+        _, first = np.unique(joined['time'], return_index=True)
+        kept = {name: values[first[-self.capacity :]] for name, values in joined.items()}
+        return Platform(**kept, max_extrapolation=self.max_extrapolation, capacity=self.capacity)
+
+    def at(self, times: Floats) -> PlatformPose:
+        """
+        Return the platform at these times (M,) [s].
+
+        Raises
+        ------
+        StalePlatform
+            If a time is further than `max_extrapolation` from the samples.
+
+        """
+        times = np.asarray(times, np.float64)
+        self._check(times)
+        if len(times) == 0:
+            return PlatformPose(
+                np.zeros((0, 3)), np.zeros((0, 4)), np.zeros((0, 3)), np.zeros((0, 3, 3)),
+                np.zeros(0),
+            )  # fmt: skip
+        after = np.clip(np.searchsorted(self.time, times), 1, max(len(self) - 1, 1))
+        before, after = after - 1, np.minimum(after, len(self) - 1)
+        span = self.time[after] - self.time[before]
+        share = np.divide(
+            times - self.time[before], span, out=np.zeros(len(times)), where=span > 0.0
+        )
+        inner = np.clip(share, 0.0, 1.0)
+        # Beyond the samples the platform goes on as its nearest sample moves.
+        beyond = times - np.clip(times, self.time[0], self.time[-1])
+        velocity = _between(self.velocity, before, after, inner)
+        position = _between(self.position, before, after, inner)
+        return PlatformPose(
+            position=position + beyond[:, None] * velocity,
+            orientation=_turn(self.orientation, before, after, share),
+            velocity=velocity,
+            position_covariance=_between(self.position_covariance, before, after, inner),
+            yaw_variance=_between(self.yaw_variance, before, after, inner),
+        )
+
+    def _check(self, times: Floats) -> None:
+        if len(times) and not len(self):
+            raise StalePlatform('no sample of the platform has come yet')
+        if len(times):
+            age = max(times.max() - self.time[-1], self.time[0] - times.min())
+            if age > self.max_extrapolation:
+                raise StalePlatform(
+                    f'plots are {age:.3g} s away from the samples of the platform, '
+                    f'limit {self.max_extrapolation:g} s'
+                )
+
+
+_ARRAYS = tuple(
+    f.name for f in fields(Platform) if f.name not in ('max_extrapolation', 'capacity')
+)
+
+
+def _between(values: Floats, before: Any, after: Any, share: Floats) -> Floats:
+    weight = share.reshape(-1, *[1] * (values.ndim - 1))
+    return np.asarray(values[before] * (1.0 - weight) + values[after] * weight)
+
+
+def _turn(orientation: Floats, before: Any, after: Any, share: Floats) -> Floats:
+    """Turn evenly from one sample to the next, and on beyond the last at the same rate."""
+    start = Rotation.from_quat(orientation[before])
+    turn = (start.inv() * Rotation.from_quat(orientation[after])).as_rotvec()
+    return np.asarray((start * Rotation.from_rotvec(share[:, None] * turn)).as_quat())

@@ -1,0 +1,221 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How do plots become tracks? `Tracker.step` is the algorithm, to be read from top to bottom.
+
+Everything that changes is in `Tracker.state`; all else is functions of batches. Read `update.py`
+next: what one look of the antenna tells about the tracks that it has passed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from tracking_core.batches import (
+    Coverage,
+    Floats,
+    Scan,
+    Seeds,
+    State,
+    StepReport,
+    Tracks,
+)  # fmt: skip
+from tracking_core.clutter import estimate_density
+from tracking_core.composition import Density, Setup
+from tracking_core.initiation import one_point, plane_start, Starts, two_point
+from tracking_core.merging import duplicates
+from tracking_core.rows import concatenate, take
+from tracking_core.update import Look, look
+
+_CLAIMED = 0.5  # a plot more likely than this from a known contact starts no other track
+FULL_TURN = 2.0 * np.pi
+
+
+@dataclass
+class Tracker:
+    """Tracks of one sensor; `state` is the only thing that changes."""
+
+    setup: Setup
+    state: State = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.reset(next_id=1)
+
+    def reset(self, next_id: int | None = None) -> None:
+        """Forget all; ids go on, unless the next one is given."""
+        d = self.setup.sensor.dimensions
+        nothing = Starts.none(d)
+        seeds = Seeds(np.zeros(0), np.zeros((0, d)), np.zeros((0, d, d)), np.zeros(0))
+        first = self.state.next_id if next_id is None else next_id
+        self.state = State(self._tracks(nothing, seeds, first), seeds, next_id=first)
+
+    @property
+    def tracks(self) -> Tracks:
+        """All tracks after the last step, each at the time of its last look."""
+        return self.state.tracks
+
+    def step(self, scan: Scan) -> Tracks:
+        """
+        Follow all contacts through one scan.
+
+        A track is worked on once the antenna has passed it; plots of passes that are not over yet
+        wait for the next scan.
+
+        Parameters
+        ----------
+        scan : Scan
+            Plots in the tracking frame, and what the sensor looked at.
+
+        Returns
+        -------
+        Tracks
+            Every track, each at the time of its last look.
+
+        """
+        state = self.state
+        if state.held is not None:
+            scan = concatenate(state.held, scan)
+        interval = _interval(scan, state)
+        density = self._density(scan, interval)
+        seen = self._look(scan, density)
+        born, seeds, used = self._start(scan, seen, density, interval)
+
+        living = take(seen.tracks, ~seen.deleted)
+        doubled = duplicates(living, self.setup.merge_distance)
+        kept = take(living, ~doubled)
+        fitting = take(born, slice(0, max(self.setup.max_tracks - len(kept), 0)))
+        clutter, looks = self._clutter(scan, seen, used)
+        self.state = State(
+            tracks=concatenate(kept, fitting),
+            seeds=seeds,
+            held=take(scan, seen.waiting) if seen.waiting.any() else None,
+            next_id=state.next_id + len(born),
+            clutter_density=clutter,
+            clutter_looks=looks,
+            time=max(scan.coverage.end_time, state.time),
+            report=StepReport(
+                plots=len(scan),
+                held=int(seen.waiting.sum()),
+                pairs=seen.pairs,
+                approximate=seen.approximate,
+                started=len(fitting),
+                merged=int(doubled.sum()),
+                refused=len(born) - len(fitting),
+                broken=seen.broken,
+                clutter_density=density.clutter,
+                deleted=np.concatenate([seen.tracks.id[seen.deleted], living.id[doubled]]),
+            ),
+        )
+        return self.state.tracks
+
+    def acquire(self, position: Floats, time: float) -> int:
+        """
+        Start a confirmed track at a position, at rest with a velocity prior; return its id.
+
+        Parameters
+        ----------
+        position : (d,) array
+            [m]
+        time : float
+            [s]
+
+        """
+        coverage = Coverage(time, time)
+        noise = self.setup.sensor.noise(position[None], coverage)
+        seed = Seeds(np.array([time]), position[None], np.asarray(noise), np.ones(1))
+        born = self._tracks(one_point(seed, 1.0, self.setup.initiation), seed, self.state.next_id)
+        born = replace(born, confirmed=np.ones(1, bool))
+        tracks = concatenate(self.state.tracks, born)
+        self.state = replace(self.state, tracks=tracks, next_id=self.state.next_id + 1)
+        return int(born.id[0])
+
+    def cancel(self, track_id: int) -> bool:
+        """Delete a track; return whether there was one with this id."""
+        kept = self.state.tracks.id != track_id
+        self.state = replace(self.state, tracks=take(self.state.tracks, kept))
+        return not bool(kept.all())
+
+    def _look(self, scan: Scan, density: Density) -> Look:
+        seen = look(self.state.tracks, scan, self.setup, density)
+        if seen.passed and abs(scan.coverage.sweep) > 0.5 * FULL_TURN:
+            # A contact near the cut of a message may have been passed twice in it.
+            seen = seen.and_then(look(seen.tracks, scan, self.setup, density))
+        return seen
+
+    def _density(self, scan: Scan, interval: float) -> Density:
+        """Return the sources of other plots, per unit of plot space and look."""
+        volume = scan.volume
+        clutter = self.setup.clutter_density or self.state.clutter_density
+        if clutter == 0.0:
+            clutter, _ = estimate_density(0.0, 0.0, len(scan), volume, 1.0)
+        return Density(clutter, self.setup.new_contacts * interval / volume)
+
+    def _clutter(self, scan: Scan, seen: Look, used: float) -> tuple[float, float]:
+        """Return the estimate of the clutter density, and from how many looks it is."""
+        unexplained = float((1.0 - seen.claimed[~seen.waiting]).clip(0.0).sum()) - used
+        sweep = abs(scan.coverage.sweep)
+        return estimate_density(
+            self.state.clutter_density,
+            self.state.clutter_looks,
+            max(unexplained, 0.0),
+            scan.volume,
+            min(sweep / FULL_TURN, 1.0) if sweep else 1.0,
+        )
+
+    def _start(
+        self, scan: Scan, seen: Look, density: Density, interval: float
+    ) -> tuple[Tracks, Seeds, float]:
+        """Return new tracks, the plots that may start one later, and how many plots are used."""
+        setup, old = self.setup, self.state.seeds
+        free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
+        fresh = Seeds(
+            scan.time[free], scan.position[free], scan.covariance[free], 1.0 - seen.claimed[free]
+        )
+        if setup.initiation.method == 'one_point':
+            starts = one_point(fresh, density.existence, setup.initiation)
+        else:
+            starts = two_point(
+                old, fresh, density, scan.clutter_volume[free], interval,
+                setup.sensor.detection_probability, setup.least_existence, setup.initiation,
+            )  # fmt: skip
+        used = np.minimum(np.bincount(starts.plot, starts.existence_probability, len(fresh)), 1.0)
+        age = scan.coverage.end_time - old.time
+        young = take(old, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
+        fresh = replace(fresh, free=fresh.free * (1.0 - used))
+        born = self._tracks(starts, fresh, self.state.next_id)
+        return born, concatenate(young, fresh), float(used.sum())
+
+    def _tracks(self, starts: Starts, fresh: Seeds, first_id: int) -> Tracks:
+        """Return tentative tracks from their starts, the likeliest first."""
+        order = np.argsort(-starts.existence_probability, kind='stable')
+        starts = take(starts, order)
+        K, d = len(order), self.setup.sensor.dimensions
+        time = fresh.time[starts.plot]
+        return Tracks(
+            id=first_id + np.arange(K),
+            time=time,
+            birth_time=time,
+            planes=tuple(
+                plane.estimator.start(*plane_start(starts, plane.coordinates))
+                for plane in self.setup.planes
+            ),
+            existence_probability=starts.existence_probability,
+            confirmed=np.zeros(K, bool),
+            hits=np.full(K, starts.hits),
+            misses=np.zeros(K, np.int64),
+            history=np.full(K, (1 << starts.hits) - 1),
+            gate_size=np.full((K, d), np.nan),
+            gate_volume=np.full(K, np.nan),
+            nis=np.full(K, np.nan),
+        )
+
+
+def _interval(scan: Scan, state: State) -> float:
+    """Return the time between two looks at the same place [s]."""
+    rate = abs(scan.coverage.rotation_rate)
+    if rate:
+        return FULL_TURN / rate
+    since = scan.coverage.end_time - state.time
+    return since if 0.0 < since < np.inf else 1.0
