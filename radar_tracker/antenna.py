@@ -21,6 +21,7 @@ _IN_STEP = 0.97  # mean resultant length of azimuth minus antenna; 1: every plot
 _FEWEST = 8  # plots from which a rate is learnt
 _SAMPLES = 400  # plots remembered while learning
 _PERIODS = (0.4, 60.0)  # of antennas [s]
+_EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
 
 
@@ -47,6 +48,8 @@ class Antenna:
         self._start = np.nan  # of the last message [s]
         self._end = np.nan
         self._interval = 0.0  # between messages [s]
+        self._tries = 0
+        self._stares = False  # plots of one moment came from different directions
 
     @property
     def rotation_rate(self) -> float:
@@ -99,6 +102,10 @@ class Antenna:
 
     def _learn(self, time: Floats, azimuth: Floats) -> None:
         """Follow the rate, or find it."""
+        if len(time) and np.ptp(time) == 0.0 and not self._rate:
+            self._stares |= bool(np.abs(np.exp(1j * azimuth).mean()) < _IN_STEP)
+        if self._stares:
+            return
         self._time = np.concatenate([self._time, time])[-_SAMPLES:]
         self._azimuth = np.concatenate([self._azimuth, azimuth])[-_SAMPLES:]
         span = np.ptp(self._time) if len(self._time) else 0.0
@@ -106,7 +113,16 @@ class Antenna:
             return
         if self._rate:
             self._refine()
-            return
+        elif self._is_worth_a_try():
+            self._find(span)
+
+    def _is_worth_a_try(self) -> bool:
+        """Return whether to look for a rate: costly, so less and less often in vain."""
+        self._tries += 1
+        return self._tries <= _EAGER or self._tries % _EAGER == 0
+
+    def _find(self, span: float) -> None:
+        """Find the rate at which all remembered plots lie on the beam, if there is one."""
         if self._period:
             candidates = TWO_PI / self._period * np.array([1.0, -1.0])
         else:

@@ -32,7 +32,7 @@ def build_setup(config: RadarTrackerConfig, radar: Radar) -> Setup:
         clutter_density=config.clutter_density,
         new_contacts=config.existence.new_contacts / _SECONDS_PER_HOUR,
         least_existence=_START_SHARE * config.existence.drop,
-        merge_distance=config.merge.distance,
+        merge=config.merge,
         max_tracks=config.max_tracks,
     )
 

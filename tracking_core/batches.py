@@ -158,6 +158,7 @@ class Tracks:
     gate_size: Floats  # (T, d) half size of the 3-sigma gate of the last look
     gate_volume: Floats  # (T,) of the chi-square gate of the last look
     nis: Floats  # (T,) normalised innovation squared of the last look, NaN: none
+    doubled: Ints  # (T,) looks in a row in which it looked like a second track of a contact
 
     def __len__(self) -> int:
         return len(self.id)
@@ -213,6 +214,7 @@ class Seeds:
     position: Floats  # (S, d)
     covariance: Floats  # (S, d, d)
     free: Floats  # (S,) chance that no known contact made the plot
+    clutter_volume: Floats  # (S,) plot space in a unit of position space at the plot
 
     def __len__(self) -> int:
         return len(self.time)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 _MEMORY = 10.0  # looks over which the estimate is averaged
 _LEAST_PLOTS = 0.5  # false plots of a look that are assumed at least: none seen is not none ever
+_JUMP, _JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
 
 
 def estimate_density(
@@ -26,6 +27,9 @@ def estimate_density(
         Part of a full look that this scan was, in (0, 1].
 
     """
+    usual = old * volume * share
+    if unexplained > _JUMP * usual + _JUMP_PLOTS:
+        looks = 0.0  # the sea got up, or a jammer went on: what was learnt is void
     looks = min(looks + share, _MEMORY)
-    new = old + share / looks * (unexplained / (volume * share) - old)
+    new = old + min(share / looks, 1.0) * (unexplained / (volume * share) - old)
     return max(new, _LEAST_PLOTS / volume), looks

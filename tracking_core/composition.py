@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from tracking_core.association import Associator
 from tracking_core.estimators import Estimator
 from tracking_core.lifecycle import Lifecycle
-from tracking_core.lifecycle_config import InitiationConfig
+from tracking_core.lifecycle_config import InitiationConfig, MergeConfig
 from tracking_core.sensing import Sensor
 
 
@@ -35,7 +35,7 @@ class Setup:
     clutter_density: float  # per unit of plot space and look; 0: estimated
     new_contacts: float  # expected in the whole coverage [1/s]
     least_existence: float  # of a new track
-    merge_distance: float
+    merge: MergeConfig
     max_tracks: int
 
 

@@ -12,6 +12,7 @@ from tracking_core.batches import Floats, Ints, Seeds
 from tracking_core.composition import Density
 from tracking_core.gating import box_pairs
 from tracking_core.lifecycle_config import InitiationConfig
+from tracking_core.rows import take
 
 _NOISE_SIGMAS = 3.0  # by how much of the plots' noise the speed limit is widened
 
@@ -54,7 +55,6 @@ def two_point(
     seeds: Seeds,
     fresh: Seeds,
     density: Density,
-    clutter_volume: Floats,
     interval: float,
     detection_probability: float,
     least_existence: float,
@@ -69,8 +69,6 @@ def two_point(
         Older and fresh unclaimed plots.
     density : Density
         Of false plots and of new contacts, in plot space.
-    clutter_volume : (M,) array
-        Plot space in a unit of position space at the fresh plots.
     interval : float
         Time between two looks [s]; plots of one look make no pair.
     detection_probability : float
@@ -86,17 +84,37 @@ def two_point(
         P = [R1, R1/T; R1/T, (R0 + R1)/T^2] per [ZHUK09] section 4, for full R.
 
     """
+    odds = _Odds(density, detection_probability, config)
+    alone = odds.of_pair(seeds, seeds, np.full(len(seeds), interval))
+    prior = density.existence * seeds.free
+    seeds = take(seeds, prior * alone >= least_existence * (1.0 - prior + prior * alone))
+    prior = density.existence * seeds.free
+
     old, new = _within_reach(seeds, fresh, 0.5 * interval, config)
     dt = fresh.time[new] - seeds.time[old]
-    volume = _reachable_volume(seeds.covariance[old], dt, config)
-    unseen = (1.0 - detection_probability) ** np.maximum(np.rint(dt / interval) - 1.0, 0.0)
-    others = density.total * clutter_volume[new] * volume
-    likely = detection_probability * fresh.free[new] * unseen / np.maximum(others, 1e-300)
-    r0 = density.existence * seeds.free
-    total = 1.0 - r0 * detection_probability + r0 * np.bincount(old, likely, len(seeds))
-    existence = r0[old] * likely / total[old]
+    looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
+    likely = odds.of_pair(take(seeds, old), take(fresh, new), dt)
+    likely = likely * (1.0 - detection_probability) ** looks_between
+    missed = 1.0 - prior * detection_probability
+    total = missed + prior * np.bincount(old, likely, len(seeds))
+    existence = prior[old] * likely / total[old]
     keep = existence >= least_existence
     return _starts(seeds, fresh, old[keep], new[keep], existence[keep])
+
+
+@dataclass(frozen=True)
+class _Odds:
+    """How much likelier a second plot is when the first was a contact's than when it was not."""
+
+    density: Density
+    detection_probability: float
+    config: InitiationConfig
+
+    def of_pair(self, first: Seeds, second: Seeds, dt: Floats) -> Floats:
+        """Return P_D over the number of other plots within reach after dt (K,) [s]."""
+        volume = _reachable_volume(first.covariance, dt, self.config)
+        others = self.density.total * second.clutter_volume * volume
+        return self.detection_probability * second.free / np.maximum(others, 1e-300)
 
 
 def _within_reach(

@@ -97,6 +97,11 @@ class MergeConfig:
         doc='states closer than this Mahalanobis distance are duplicates; 0: never merge',
     )  # fmt: skip
 
+    looks: int = parameter(
+        6, unit='1', doc='... for so many looks in a row, if both are confirmed', low=1, high=100,
+        live=True,
+    )  # fmt: skip
+
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)

@@ -58,6 +58,10 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
     )
     turns = np.ceil((earliest - latest) / period - 1e-9)
     passed = latest + np.maximum(turns, -1.0) * period
+    # A turn after `latest` the contact is elsewhere, by more than its gate if it is fast and near.
+    azimuth = _azimuth(position + velocity * (passed - time)[:, None], coverage)
+    antenna = coverage.start_azimuth + rate * (passed - coverage.start_time)
+    passed = passed + wrap_angle(azimuth - antenna) / rate
     return Looks(passed, passed - margin < coverage.end_time)
 
 

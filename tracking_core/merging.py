@@ -4,11 +4,37 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints, Tracks
 from tracking_core.gating import box_pairs
+from tracking_core.lifecycle_config import MergeConfig
 from tracking_core.linalg import symmetrise
+
+
+def end_doubles(tracks: Tracks, passed: Bools, config: MergeConfig) -> tuple[Tracks, Bools]:
+    """
+    Return the tracks with their looks as doubles counted, and which of them are to go.
+
+    Contacts that cross are near each other for a look or two, doubles stay so: a confirmed track
+    goes after `config.looks` looks in a row, a tentative one at once.
+
+    Parameters
+    ----------
+    tracks : Tracks
+        T tracks.
+    passed : (T,) array
+        Looked at in this scan.
+    config : MergeConfig
+        What counts as near, and how long.
+
+    """
+    near = duplicates(tracks, config.distance)
+    looks = np.where(near, tracks.doubled + 1, 0)
+    tracks = replace(tracks, doubled=np.where(passed, looks, tracks.doubled))
+    return tracks, near & (~tracks.confirmed | (tracks.doubled >= config.looks))
 
 
 def duplicates(tracks: Tracks, distance: float) -> Bools:
@@ -26,9 +52,10 @@ def duplicates(tracks: Tracks, distance: float) -> Bools:
     mean, covariance = moments[0]
     position = mean[:, 0::2]
     sd = np.sqrt(np.einsum('tnn->tn', covariance)[:, 0::2])
-    first, second = box_pairs(position, 2.0 * distance * sd, position)
-    apart = first < second
-    first, second = first[apart], second[apart]
+    # Each looks as far as the pair may be apart if it is the vaguer one of the two.
+    one, other = box_pairs(position, np.sqrt(2.0 * mean.shape[1]) * distance * sd, position)
+    apart = one != other
+    first, second = np.minimum(one, other)[apart], np.maximum(one, other)[apart]
     if len(first) == 0:
         return lost
     close = np.ones(len(first), bool)

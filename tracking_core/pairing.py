@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import gammaincinv
 
 from tracking_core import measurement
 from tracking_core.batches import Coverage, Floats, Innovations, Ints, Mixture, Pairs, Scan
@@ -43,9 +44,11 @@ class Gated:
     log_likelihood: Floats  # (P,) product over planes of the mode mixtures
 
 
+@lru_cache(maxsize=64)
 def thresholds(probability: float, dimensions: int) -> Floats:
     """Return chi-square bounds by number of components of a plot, 0 to `dimensions` + 1."""
-    return np.concatenate([[0.0], chi2.ppf(probability, np.arange(1, dimensions + 2))])
+    halves = 0.5 * np.arange(1, dimensions + 2)
+    return np.concatenate([[0.0], 2.0 * gammaincinv(halves, probability)])
 
 
 def open_gates(

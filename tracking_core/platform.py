@@ -50,10 +50,10 @@ class Platform:
     position_covariance: Floats  # (K, 3, 3) [m^2]
     yaw_variance: Floats  # (K,) [rad^2]
     max_extrapolation: float = 2.0  # beyond the newest or oldest sample [s]
-    capacity: int = 1000  # samples kept
+    capacity: int = 2000  # samples kept
 
     @staticmethod
-    def empty(max_extrapolation: float = 2.0, capacity: int = 1000) -> Platform:
+    def empty(max_extrapolation: float = 2.0, capacity: int = 2000) -> Platform:
         """Return a platform of which nothing is known yet."""
         return Platform(
             np.zeros(0), np.zeros((0, 3)), np.zeros((0, 4)), np.zeros((0, 3)),

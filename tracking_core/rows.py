@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass
+from functools import lru_cache
 from typing import Any, cast, TypeVar
 
 import numpy as np
@@ -41,14 +42,21 @@ def _each(value: Any, change: Callable[..., Any], *others: Any) -> Any:
     """Apply `change` to every array of a dataclass, of those in it and in its tuples."""
     if isinstance(value, np.ndarray):
         return change(value, *others)
+    if isinstance(value, (int, float, str)) or value is None:
+        return value
     if isinstance(value, tuple):
         return tuple(_each(*(v[0], change, *v[1:])) for v in zip(value, *others, strict=True))
-    if not is_dataclass(value) or isinstance(value, type):
+    if not is_dataclass(value):
         return value
-    names = [f.name for f in fields(value) if f.init]
-    return type(value)(
-        **{
-            name: _each(getattr(value, name), change, *(getattr(o, name) for o in others))
-            for name in names
-        }
+    kind: Any = type(value)
+    return kind(
+        *(
+            _each(getattr(value, name), change, *(getattr(o, name) for o in others))
+            for name in _names(kind)
+        )
     )
+
+
+@lru_cache(maxsize=64)
+def _names(batch: type) -> tuple[str, ...]:
+    return tuple(f.name for f in fields(batch))

@@ -22,14 +22,14 @@ from tracking_core.batches import (
     StepReport,
     Tracks,
 )  # fmt: skip
+from tracking_core.birth import new_tracks, start_tracks
 from tracking_core.clutter import estimate_density
 from tracking_core.composition import Density, Setup
-from tracking_core.initiation import one_point, plane_start, Starts, two_point
-from tracking_core.merging import duplicates
+from tracking_core.initiation import one_point, Starts
+from tracking_core.merging import end_doubles
 from tracking_core.rows import concatenate, take
 from tracking_core.update import Look, look
 
-_CLAIMED = 0.5  # a plot more likely than this from a known contact starts no other track
 FULL_TURN = 2.0 * np.pi
 
 
@@ -47,9 +47,11 @@ class Tracker:
         """Forget all; ids go on, unless the next one is given."""
         d = self.setup.sensor.dimensions
         nothing = Starts.none(d)
-        seeds = Seeds(np.zeros(0), np.zeros((0, d)), np.zeros((0, d, d)), np.zeros(0))
+        seeds = Seeds(np.zeros(0), np.zeros((0, d)), np.zeros((0, d, d)), np.zeros(0), np.zeros(0))
         first = self.state.next_id if next_id is None else next_id
-        self.state = State(self._tracks(nothing, seeds, first), seeds, next_id=first)
+        self.state = State(
+            new_tracks(nothing, seeds.time, self.setup, first), seeds, next_id=first
+        )
 
     @property
     def tracks(self) -> Tracks:
@@ -80,10 +82,10 @@ class Tracker:
         interval = _interval(scan, state)
         density = self._density(scan, interval)
         seen = self._look(scan, density)
-        born, seeds, used = self._start(scan, seen, density, interval)
+        born, seeds, used = start_tracks(scan, seen, density, interval, self.setup, state)
 
         living = take(seen.tracks, ~seen.deleted)
-        doubled = duplicates(living, self.setup.merge_distance)
+        living, doubled = end_doubles(living, seen.passed[~seen.deleted], self.setup.merge)
         kept = take(living, ~doubled)
         fitting = take(born, slice(0, max(self.setup.max_tracks - len(kept), 0)))
         clutter, looks = self._clutter(scan, seen, used)
@@ -124,8 +126,9 @@ class Tracker:
         """
         coverage = Coverage(time, time)
         noise = self.setup.sensor.noise(position[None], coverage)
-        seed = Seeds(np.array([time]), position[None], np.asarray(noise), np.ones(1))
-        born = self._tracks(one_point(seed, 1.0, self.setup.initiation), seed, self.state.next_id)
+        seed = Seeds(np.array([time]), position[None], np.asarray(noise), np.ones(1), np.ones(1))
+        starts = one_point(seed, 1.0, self.setup.initiation)
+        born = new_tracks(starts, seed.time, self.setup, self.state.next_id)
         born = replace(born, confirmed=np.ones(1, bool))
         tracks = concatenate(self.state.tracks, born)
         self.state = replace(self.state, tracks=tracks, next_id=self.state.next_id + 1)
@@ -139,8 +142,7 @@ class Tracker:
 
     def _look(self, scan: Scan, density: Density) -> Look:
         seen = look(self.state.tracks, scan, self.setup, density)
-        if seen.passed and abs(scan.coverage.sweep) > 0.5 * FULL_TURN:
-            # A contact near the cut of a message may have been passed twice in it.
+        if seen.again:
             seen = seen.and_then(look(seen.tracks, scan, self.setup, density))
         return seen
 
@@ -162,53 +164,6 @@ class Tracker:
             max(unexplained, 0.0),
             scan.volume,
             min(sweep / FULL_TURN, 1.0) if sweep else 1.0,
-        )
-
-    def _start(
-        self, scan: Scan, seen: Look, density: Density, interval: float
-    ) -> tuple[Tracks, Seeds, float]:
-        """Return new tracks, the plots that may start one later, and how many plots are used."""
-        setup, old = self.setup, self.state.seeds
-        free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
-        fresh = Seeds(
-            scan.time[free], scan.position[free], scan.covariance[free], 1.0 - seen.claimed[free]
-        )
-        if setup.initiation.method == 'one_point':
-            starts = one_point(fresh, density.existence, setup.initiation)
-        else:
-            starts = two_point(
-                old, fresh, density, scan.clutter_volume[free], interval,
-                setup.sensor.detection_probability, setup.least_existence, setup.initiation,
-            )  # fmt: skip
-        used = np.minimum(np.bincount(starts.plot, starts.existence_probability, len(fresh)), 1.0)
-        age = scan.coverage.end_time - old.time
-        young = take(old, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
-        fresh = replace(fresh, free=fresh.free * (1.0 - used))
-        born = self._tracks(starts, fresh, self.state.next_id)
-        return born, concatenate(young, fresh), float(used.sum())
-
-    def _tracks(self, starts: Starts, fresh: Seeds, first_id: int) -> Tracks:
-        """Return tentative tracks from their starts, the likeliest first."""
-        order = np.argsort(-starts.existence_probability, kind='stable')
-        starts = take(starts, order)
-        K, d = len(order), self.setup.sensor.dimensions
-        time = fresh.time[starts.plot]
-        return Tracks(
-            id=first_id + np.arange(K),
-            time=time,
-            birth_time=time,
-            planes=tuple(
-                plane.estimator.start(*plane_start(starts, plane.coordinates))
-                for plane in self.setup.planes
-            ),
-            existence_probability=starts.existence_probability,
-            confirmed=np.zeros(K, bool),
-            hits=np.full(K, starts.hits),
-            misses=np.zeros(K, np.int64),
-            history=np.full(K, (1 << starts.hits) - 1),
-            gate_size=np.full((K, d), np.nan),
-            gate_volume=np.full(K, np.nan),
-            nis=np.full(K, np.nan),
         )
 
 

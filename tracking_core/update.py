@@ -12,32 +12,17 @@ from tracking_core.association import clusters
 from tracking_core.batches import (
     Bools,
     Floats,
-    Ints,
-    Mixture,
     Scan,
     Tracks,
 )  # fmt: skip
 from tracking_core.composition import Density, Setup
 from tracking_core.lifecycle import count_looks, has_left
 from tracking_core.linalg import is_positive_definite, sum_by_track
-from tracking_core.looks import inside_coverage, LONGEST_WAIT, margins, next_looks
-from tracking_core.pairing import Gated, Gates, open_gates, pair, thresholds
+from tracking_core.looks import LONGEST_WAIT
+from tracking_core.pairing import Gated, pair, thresholds
+from tracking_core.prediction import is_passed_again, longest_lag, predict_tracks, Predicted
 from tracking_core.rows import put, take
 from tracking_core.sharing import Share, share_plots
-
-
-@dataclass(frozen=True)
-class Predicted:
-    """Tracks that the antenna passes, brought to the time of the pass."""
-
-    row: Ints  # (T,) in all tracks
-    tracks: Tracks  # as they were at their last look
-    time: Floats  # (T,) of the pass [s]
-    margin: Floats  # (T,) until the gate is left behind [s]
-    planes: tuple[Mixture, ...]  # predicted
-    gates: Gates
-    existence_probability: Floats  # (T,) predicted
-    detection: Floats  # (T,) P_D, 0 outside the coverage
 
 
 @dataclass(frozen=True)
@@ -49,9 +34,10 @@ class Look:
     broken: int  # tracks deleted because a covariance was not positive definite
     claimed: Floats  # (M,) chance that a known contact made the plot
     waiting: Bools  # (M,) in the gate of a track that the antenna has not passed yet
-    passed: int  # tracks worked on
+    passed: Bools  # (T,) worked on
     pairs: int
     approximate: int  # tracks with marginals from belief propagation
+    again: bool  # the antenna has passed a track once more in the same scan
 
     def and_then(self, second: Look) -> Look:
         """Return both looks as one."""
@@ -62,9 +48,10 @@ class Look:
             broken=self.broken + second.broken,
             claimed=claimed,
             waiting=(self.waiting | second.waiting) & (claimed == 0.0),
-            passed=self.passed + second.passed,
+            passed=self.passed | second.passed,
             pairs=self.pairs + second.pairs,
             approximate=self.approximate + second.approximate,
+            again=second.again,
         )
 
 
@@ -84,10 +71,10 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
         Of false plots and of new contacts.
 
     """
-    near = _predict(tracks, scan, setup)
+    near = predict_tracks(tracks, scan, setup)
     bounds = thresholds(setup.gate_probability, setup.sensor.dimensions)
     gated = pair(
-        setup.planes, near.planes, near.gates, near.time, _longest_lag(near, scan), scan, bounds
+        setup.planes, near.planes, near.gates, near.time, longest_lag(near, scan), scan, bounds
     )
     due = _due(near, gated, scan)
     waiting = np.zeros(len(scan), bool)
@@ -101,47 +88,19 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     updated, left, broken = _update(passed, gated, share, setup)
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
-    deleted = np.zeros(len(tracks), bool)
-    deleted[passed.row] = left | broken
+    deleted, worked_on = np.zeros(len(tracks), bool), np.zeros(len(tracks), bool)
+    deleted[passed.row], worked_on[passed.row] = left | broken, True
     return Look(
         tracks=put(tracks, passed.row, updated),
         deleted=deleted,
         broken=int(broken.sum()),
         claimed=claimed,
         waiting=waiting & (claimed == 0.0),
-        passed=len(passed.row),
+        passed=worked_on,
         pairs=len(gated.pairs),
         approximate=int(share.approximate.sum()),
+        again=is_passed_again(updated, scan),
     )
-
-
-def _predict(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
-    """Bring the tracks that the antenna is near to the time at which it points at them."""
-    mean, _ = tracks.planes[0].moments()
-    looks = next_looks(mean[:, 0::2], mean[:, 1::2], tracks.time, scan.coverage)
-    row = np.flatnonzero(looks.near)
-    near, time = take(tracks, row), looks.time[row]
-    dt = time - near.time
-    planes = tuple(
-        plane.estimator.predict(mixture, dt)
-        for plane, mixture in zip(setup.planes, near.planes, strict=True)
-    )
-    d = setup.sensor.dimensions
-    threshold = thresholds(setup.gate_probability, d)[d]
-    gates = open_gates(setup.planes, planes, setup.sensor, scan.coverage, threshold)
-    widest = gates.half_size[:, :2].max(axis=1, initial=0.0)
-    inside = inside_coverage(gates.centre, scan.coverage)
-    return Predicted(
-        row, near, time, margins(gates.centre[:, :2], widest, scan.coverage), planes, gates,
-        setup.lifecycle.prior(near, dt), np.where(inside, setup.sensor.detection_probability, 0.0),
-    )  # fmt: skip
-
-
-def _longest_lag(near: Predicted, scan: Scan) -> Floats:
-    """Return how far in time a plot of this look may be from the pass (T,) [s]."""
-    if scan.coverage.rotation_rate:
-        return near.margin
-    return np.full(len(near.time), 0.5 * (scan.coverage.end_time - scan.coverage.start_time))
 
 
 def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:

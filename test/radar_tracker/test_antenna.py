@@ -1,0 +1,125 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""The rotation of an antenna is learnt from its plots, and what each message swept."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.testing import assert_allclose
+import pytest
+
+from radar_tracker.antenna import Antenna, Sweep
+from studies.scenes import messages
+from tracking_core.batches import Plots
+from tracking_tools.scenarios import Contact, Legs, Radar, Scenario
+
+CONTACTS = tuple(
+    Contact(k + 1, Legs((r * np.cos(a), r * np.sin(a), 0.0), 120.0, 1.3 * k))
+    for k, (a, r) in enumerate([(0.3, 9e3), (2.0, 14e3), (-2.2, 20e3), (-0.9, 11e3)])
+)
+
+
+def sensed(period: float, rotation: str, turns: int, sectors: int = 1, clutter: float = 6.0):
+    """Messages of a scene."""
+    radar = Radar(
+        period=period, range_sd=30.0, azimuth_sd=0.003, clutter_per_turn=clutter,
+        rotation=rotation, range_limits=(500.0, 60_000.0),
+    )  # fmt: skip
+    scene = Scenario(radar, CONTACTS, turns * period)
+    return [plots for plots, _ in messages(scene, np.random.default_rng(3), sectors)]
+
+
+def follow(antenna: Antenna, plots: list[Plots]) -> list[Sweep]:
+    """Return what each message swept."""
+    return [antenna.follow(message, message.azimuth) for message in plots]
+
+
+@pytest.mark.parametrize('rotation', ['clockwise', 'anticlockwise'])
+@pytest.mark.parametrize('period', [1.3, 2.5, 4.0, 10.0, 12.0])
+@pytest.mark.parametrize('sectors', [1, 8])
+def test_follow_learns_the_rotation(rotation: str, period: float, sectors: int) -> None:
+    """Rate to 1e-4, direction too, from full turns and from sectors."""
+    antenna = Antenna(0.0, sectors == 1, 'start')
+    follow(antenna, sensed(period, rotation, 12, sectors))
+    sense = 1.0 if rotation == 'anticlockwise' else -1.0
+    assert antenna.rotation_rate == pytest.approx(sense * 2.0 * np.pi / period, rel=1e-4)
+
+
+def test_follow_takes_the_period_that_is_told() -> None:
+    """A known period still leaves the direction to be learnt, and is refined."""
+    antenna = Antenna(4.02, True, 'start')
+    follow(antenna, sensed(4.0, 'clockwise', 6))
+    assert antenna.rotation_rate == pytest.approx(-np.pi / 2.0, rel=1e-4)
+
+
+@pytest.mark.parametrize('sectors', [1, 8])
+def test_follow_says_where_the_antenna_points(sectors: int) -> None:
+    """At the times of the plots the sweep points at them; sweeps join without gaps."""
+    antenna = Antenna(0.0, sectors == 1, 'start')
+    plots = sensed(4.0, 'clockwise', 10, sectors)
+    sweeps = follow(antenna, plots)
+    for before, sweep, message in list(zip(sweeps, sweeps[1:], plots[1:], strict=False))[-5:]:
+        assert sweep.contiguous
+        assert sweep.start_time == before.end_time
+        rate = sweep.angle / (sweep.end_time - sweep.start_time)
+        off = message.azimuth - sweep.start_azimuth - rate * (message.time - sweep.start_time)
+        assert_allclose(np.angle(np.exp(1j * off)), 0.0, atol=0.02)
+    turned = sum(sweep.angle for sweep in sweeps[-sectors:])
+    assert turned == pytest.approx(-2.0 * np.pi, rel=0.05)
+
+
+def test_follow_knows_a_sensor_that_stares() -> None:
+    """Plots of one moment from all directions: no rotation, a look everywhere at once."""
+    antenna = Antenna(0.0, True, 'start')
+    sweeps = follow(antenna, sensed(4.0, 'staring', 12))
+    assert antenna.rotation_rate == 0.0
+    assert all(sweep.angle == 0.0 for sweep in sweeps)
+
+
+def test_follow_is_not_fooled_by_random_directions() -> None:
+    """Times and azimuths that have nothing to do with each other are no rotation."""
+    rng, antenna = np.random.default_rng(5), Antenna(0.0, True, 'start')
+    for k in range(30):
+        time = np.sort(rng.uniform(4.0 * k, 4.0 * k + 4.0, 20))
+        plots = replace(
+            Plots.polar(time, np.ones(20), rng.uniform(-np.pi, np.pi, 20)), stamp=4.0 * k
+        )
+        antenna.follow(plots, plots.azimuth)
+    assert antenna.rotation_rate == 0.0
+
+
+def test_follow_forgets_a_rotation_that_changes() -> None:
+    """From 4 s to 2.5 s a turn: the old rate is dropped and the new one is found."""
+    antenna = Antenna(0.0, True, 'start')
+    follow(antenna, sensed(4.0, 'clockwise', 8))
+    later = [
+        replace(p, time=p.time + 32.0, stamp=p.stamp + 32.0) for p in sensed(2.5, 'clockwise', 60)
+    ]
+    follow(antenna, later)
+    assert antenna.rotation_rate == pytest.approx(-2.0 * np.pi / 2.5, rel=1e-3)
+
+
+def test_follow_takes_empty_messages() -> None:
+    """Turns without a plot still sweep once the rotation is known, and nothing before."""
+    nothing = Plots.polar(np.zeros(0), np.zeros(0), np.zeros(0))
+    antenna = Antenna(0.0, True, 'start')
+    assert antenna.follow(nothing, nothing.azimuth).angle == 0.0
+    plots = sensed(4.0, 'anticlockwise', 8)
+    follow(antenna, plots)
+    sweep = antenna.follow(replace(nothing, stamp=32.0), nothing.azimuth)
+    assert sweep.angle == pytest.approx(2.0 * np.pi, rel=0.01)
+    assert sweep.contiguous
+    gap = antenna.follow(replace(nothing, stamp=60.0), nothing.azimuth)
+    assert not gap.contiguous
+
+
+@pytest.mark.parametrize(('reference', 'ahead'), [('start', 4.0), ('middle', 2.0), ('end', 0.0)])
+def test_follow_heeds_what_the_stamp_means(reference: str, ahead: float) -> None:
+    """A message stamped at its start, middle or end reaches so far beyond its stamp."""
+    antenna = Antenna(4.0, True, reference)
+    follow(antenna, [replace(p, stamp=p.stamp + 4.0 - ahead) for p in sensed(4.0, 'clockwise', 8)])
+    nothing = Plots.polar(np.zeros(0), np.zeros(0), np.zeros(0))
+    sweep = antenna.follow(replace(nothing, stamp=36.0 - ahead), nothing.azimuth)
+    assert sweep.end_time == pytest.approx(36.0, abs=0.01)

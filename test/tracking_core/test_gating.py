@@ -1,0 +1,59 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""The sorted sweep finds the same pairs as looking at all of them."""
+
+from __future__ import annotations
+
+from hypothesis import given, settings, strategies
+import numpy as np
+from numpy.testing import assert_array_equal
+
+from tracking_core.gating import box_pairs
+
+
+def brute_force(centre, half_size, plots):
+    """Look at every track with every plot."""
+    gap = np.abs(plots[None, :, :2] - centre[:, None, :2])
+    return np.nonzero((gap <= half_size[:, None, :2]).all(axis=2))
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    seed=strategies.integers(0, 2**32 - 1),
+    tracks=strategies.integers(0, 30),
+    plots=strategies.integers(0, 60),
+    dimensions=strategies.sampled_from([1, 2, 3]),
+    size=strategies.sampled_from([0.0, 0.01, 1.0, 30.0, 1e4]),
+    grid=strategies.booleans(),
+)
+def test_box_pairs_equals_brute_force(seed, tracks, plots, dimensions, size, grid) -> None:
+    """Any sizes, boxes from points to everything, also with plots on common lines."""
+    rng = np.random.default_rng(seed)
+    centre = rng.normal(0.0, 10.0, (tracks, dimensions))
+    where = rng.normal(0.0, 10.0, (plots, dimensions))
+    if grid:
+        centre, where = np.round(centre), np.round(where)
+    half_size = size * rng.exponential(1.0, (tracks, dimensions))
+    found = box_pairs(centre, half_size, where)
+    for ours, expected in zip(found, brute_force(centre, half_size, where), strict=True):
+        assert_array_equal(ours, expected)
+
+
+def test_box_pairs_ignores_a_coordinate_that_is_not_measured() -> None:
+    """A plot without height is in the box of the two coordinates it has."""
+    plots = np.array([[1.0, 1.0, np.nan], [9.0, 9.0, np.nan]])
+    track, plot = box_pairs(np.zeros((1, 3)), np.full((1, 3), 2.0), plots)
+    assert_array_equal(track, [0])
+    assert_array_equal(plot, [0])
+
+
+def test_box_pairs_finds_what_a_million_candidates_hide() -> None:
+    """Far from the origin, in rows that are nearly all empty."""
+    rng = np.random.default_rng(2)
+    plots = rng.uniform(-1e5, 1e5, (3000, 2)) + 1e7
+    centre = plots[rng.permutation(3000)[:1000]] + rng.normal(0.0, 100.0, (1000, 2))
+    half_size = rng.uniform(10.0, 500.0, (1000, 2))
+    found = box_pairs(centre, half_size, plots)
+    assert len(found[0]) > 500
+    for ours, expected in zip(found, brute_force(centre, half_size, plots), strict=True):
+        assert_array_equal(ours, expected)

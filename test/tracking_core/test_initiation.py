@@ -1,0 +1,140 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where tracks come from, and how likely they are real."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
+import pytest
+
+from tracking_core.batches import Seeds
+from tracking_core.composition import Density
+from tracking_core.initiation import one_point, plane_start, two_point
+from tracking_core.lifecycle_config import InitiationConfig
+
+INTERVAL = 4.0
+LIMITS = InitiationConfig(speed_max=300.0, climb_max=20.0)
+
+
+def plots(time, position, free=1.0, variance=400.0) -> Seeds:
+    """Make plots with a correlated covariance."""
+    position = np.atleast_2d(position).astype(float)
+    K, d = position.shape
+    covariance = np.tile(variance * (np.eye(d) + 0.3), (K, 1, 1))
+    return Seeds(
+        time=np.broadcast_to(np.asarray(time, float), K).copy(),
+        position=position,
+        covariance=covariance,
+        free=np.full(K, free),
+        clutter_volume=np.ones(K),
+    )
+
+
+def start(seeds: Seeds, fresh: Seeds, density=Density(1e-9, 1e-9), least: float = 0.0):  # noqa: B008
+    """Two-point starts with P_D 0.9."""
+    return two_point(seeds, fresh, density, INTERVAL, 0.9, least, LIMITS)
+
+
+def test_two_point_gives_the_covariance_of_two_plots() -> None:
+    """P = [R1, R1/T; R1/T, (R0 + R1)/T^2] for full R, by simulation of the noise."""
+    rng = np.random.default_rng(1)
+    old, new = plots(0.0, [[0.0, 0.0]], variance=900.0), plots(4.0, [[400.0, 100.0]])
+    starts = start(old, new)
+    mean, P = plane_start(starts, (0, 1))
+    assert_allclose(mean[0], [400.0, 100.0, 100.0, 25.0])  # x, vx, y, vy
+    e0 = rng.multivariate_normal(np.zeros(2), old.covariance[0], 200_000)
+    e1 = rng.multivariate_normal(np.zeros(2), new.covariance[0], 200_000)
+    velocity = (e1 - e0) / 4.0
+    error = np.stack([e1[:, 0], velocity[:, 0], e1[:, 1], velocity[:, 1]], axis=1)
+    scale = np.sqrt(np.diag(P[0]))
+    assert_allclose(P[0] / np.outer(scale, scale), np.cov(error.T) / np.outer(scale, scale),
+                    atol=0.01)  # fmt: skip
+
+
+def test_plane_start_takes_the_coordinates_of_a_plane() -> None:
+    """The vertical plane of a 3-D start is (z, vz), the horizontal one is full."""
+    starts = start(plots(0.0, [[0.0, 0.0, 0.0]]), plots(4.0, [[40.0, 80.0, 8.0]]))
+    mean, P = plane_start(starts, (2,))
+    assert_allclose(mean, [[8.0, 2.0]])
+    assert_allclose(P[0], [[520.0, 130.0], [130.0, 65.0]])
+    mean, P = plane_start(starts, (0, 1))
+    assert_allclose(mean, [[40.0, 10.0, 80.0, 20.0]])
+    assert P[0, 0, 2] == pytest.approx(0.3 * 400.0)
+    assert P[0, 1, 3] == pytest.approx(0.3 * 800.0 / 16.0)
+
+
+@pytest.mark.parametrize(
+    ('position', 'time', 'fits'),
+    [
+        ((1190.0, 0.0, 0.0), 4.0, True),
+        ((900.0, 900.0, 0.0), 4.0, True),  # 1273 m less the noise
+        ((1400.0, 0.0, 0.0), 4.0, False),  # too fast
+        ((1100.0, 1100.0, 0.0), 4.0, False),  # too fast across the axes
+        ((0.0, 0.0, 150.0), 4.0, True),
+        ((0.0, 0.0, -190.0), 4.0, False),  # dives too steeply
+        ((0.0, 0.0, 0.0), 1.9, False),  # of the same look
+        ((0.0, 0.0, 0.0), -4.0, False),  # before it
+    ],
+)
+def test_two_point_keeps_the_speed_limits(position, time: float, fits: bool) -> None:
+    """Speed 300 m/s, climb 20 m/s, each plus three sigma of both plots (97 m), after a look."""
+    starts = start(plots(0.0, [[0.0, 0.0, 0.0]]), plots(time, [position]))
+    assert len(starts.plot) == fits
+
+
+def test_two_point_existence_equals_bayes() -> None:
+    """One old plot, three within reach: who was it? Enumerated."""
+    density = Density(clutter=3e-7, new_contacts=1e-7)
+    old = plots(0.0, [[0.0, 0.0]], free=0.8)
+    new = plots(4.0, [[100.0, 0.0], [0.0, 500.0], [-900.0, 0.0]])
+    starts = start(old, new, density)
+    volume = np.pi * (300.0 * 4.0 + np.sqrt(400.0 * 1.3)) ** 2
+    # A contact's next plot is anywhere within reach; other plots have their density.
+    contact = 0.8 * 0.25
+    weights = np.array([contact * 0.9 / volume / 4e-7] * 3 + [contact * 0.1, 1.0 - contact])
+    assert_array_equal(starts.plot, [0, 1, 2])
+    assert_allclose(starts.existence_probability, (weights / weights.sum())[:3], rtol=1e-12)
+
+
+def test_two_point_counts_the_looks_between() -> None:
+    """A second plot two looks later needs a miss between, and leaves more room."""
+    density = Density(clutter=3e-7, new_contacts=1e-7)
+    near, far = (
+        start(plots(0.0, [[0.0, 0.0]]), plots(time, [[0.0, 0.0]]), density) for time in (4.0, 8.0)
+    )
+    assert far.existence_probability[0] < 0.2 * near.existence_probability[0]
+
+
+def test_two_point_does_not_start_in_dense_clutter() -> None:
+    """Starts less likely than asked for are left out."""
+    seeds, fresh = plots(0.0, [[0.0, 0.0]]), plots(4.0, [[0.0, 0.0]])
+    thin = start(seeds, fresh, Density(1e-8, 1e-8), least=0.01)
+    dense = start(seeds, fresh, Density(1e-4, 1e-8), least=0.01)
+    assert len(thin.plot) == 1
+    assert len(dense.plot) == 0
+
+
+def test_two_point_takes_nothing() -> None:
+    """No old plots, no fresh ones, neither."""
+    one, none = plots(0.0, [[0.0, 0.0]]), plots(0.0, np.zeros((0, 2)))
+    for seeds, fresh in ((one, none), (none, one), (none, none)):
+        starts = start(seeds, fresh)
+        assert starts.mean.shape == (0, 2, 2)
+        assert starts.covariance.shape == (0, 2, 2, 2, 2)
+
+
+def test_one_point_starts_at_rest_with_a_velocity_prior() -> None:
+    """Covariance R and speed_max^2 / 3, climb_max^2 / 3, nothing across."""
+    fresh = plots(0.0, [[10.0, 20.0, 30.0], [0.0, 0.0, 0.0]], free=0.5)
+    starts = one_point(fresh, 0.4, LIMITS)
+    mean, P = plane_start(starts, (0, 1))
+    assert_allclose(mean[0], [10.0, 0.0, 20.0, 0.0])
+    expected = np.zeros((4, 4))
+    expected[0::2, 0::2] = fresh.covariance[0, :2, :2]
+    expected[1::2, 1::2] = np.diag([30_000.0, 30_000.0])
+    assert_allclose(P[0], expected)
+    _, vertical = plane_start(starts, (2,))
+    assert vertical[0, 1, 1] == pytest.approx(400.0 / 3.0)
+    assert_allclose(starts.existence_probability, [0.2, 0.2])
+    assert starts.hits == 1

@@ -1,0 +1,90 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""When the antenna passes a track, and what the sensor can see."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
+import pytest
+
+from tracking_core.batches import Coverage
+from tracking_core.looks import inside_coverage, LARGEST_MARGIN, margins, next_looks
+
+PERIOD = 4.0
+
+
+def turn(start: float, sense: float, azimuth: float = 0.5 * np.pi) -> Coverage:
+    """One full turn from an azimuth on."""
+    return Coverage(start, start + PERIOD, azimuth, sense * 2.0 * np.pi, contiguous=True)
+
+
+@pytest.mark.parametrize('sense', [1.0, -1.0])
+def test_next_looks_meet_the_antenna(sense: float) -> None:
+    """
+    At the time found, the antenna points where the moving track then is.
+
+    To what the track's direction may change in a turn, which a plot's own time makes good.
+    """
+    rng = np.random.default_rng(1)
+    position = rng.normal(0.0, 2e4, (300, 2))
+    velocity = rng.normal(0.0, 100.0, (300, 2))
+    coverage = turn(100.0, sense)
+    looks = next_looks(position, velocity, np.full(300, 96.5), coverage)
+    away = position + velocity * (looks.time - 96.5)[:, None]
+    antenna = coverage.start_azimuth + coverage.rotation_rate * (looks.time - 100.0)
+    off = np.angle(np.exp(1j * (np.arctan2(away[:, 1], away[:, 0]) - antenna)))
+    distance = np.minimum(np.linalg.norm(away, axis=1), np.linalg.norm(position, axis=1))
+    change = np.linalg.norm(velocity, axis=1) * PERIOD / distance
+    assert (np.abs(off[change < 0.1]) < 1.5 * change[change < 0.1]).all()
+    assert np.median(np.abs(off)) < 2e-3
+    assert (looks.time >= 96.5 + 0.5 * PERIOD - 1e-6).all()
+    assert (looks.time < 100.0 + PERIOD).all()
+
+
+@pytest.mark.parametrize('sense', [1.0, -1.0])
+def test_next_looks_come_once_a_turn(sense: float) -> None:
+    """A standing track near the cut of the messages is passed every 4 s, never skipped."""
+    for offset in (-0.01, 0.0, 0.01):
+        azimuth = 0.5 * np.pi + offset
+        position = 1e4 * np.array([[np.cos(azimuth), np.sin(azimuth)]])
+        time, passes = np.array([-3.9]), []
+        for k in range(20):
+            for _ in range(2):
+                looks = next_looks(position, np.zeros((1, 2)), time, turn(k * PERIOD, sense))
+                if looks.near[0] and looks.time[0] <= (k + 1) * PERIOD:
+                    time = looks.time
+                    passes.append(time[0])
+        assert len(passes) >= 19
+        assert_allclose(np.diff(passes), PERIOD, atol=1e-9)
+
+
+def test_next_looks_of_a_staring_sensor_are_in_the_middle() -> None:
+    """A sensor that looks everywhere at once looks at every track."""
+    looks = next_looks(np.zeros((2, 2)), np.zeros((2, 2)), np.zeros(2), Coverage(1.0, 3.0))
+    assert_allclose(looks.time, 2.0)
+    assert looks.near.all()
+
+
+def test_margins_are_the_angle_of_the_gate() -> None:
+    """Half size over distance, a turn in 4 s; bounded for gates about the sensor."""
+    far, about = np.array([1000.0, 0.0]), np.array([1.0, 0.0])
+    margin = margins(np.stack([far, about]), np.array([1000.0, 1000.0]), turn(0.0, 1.0))
+    assert_allclose(margin, [PERIOD / 8.0, LARGEST_MARGIN * PERIOD])
+    assert_array_equal(margins(far[None], np.ones(1), Coverage(0.0, 1.0)), [0.0])
+
+
+def test_inside_coverage_knows_range_and_sector() -> None:
+    """Range limits and a sector across the cut of the angles."""
+    coverage = replace(
+        Coverage(0.0, 1.0), sensor_position=(100.0, 0.0, 0.0), range_min=50.0, range_max=500.0,
+        sector_centre=np.pi, sector_width=1.0,
+    )  # fmt: skip
+    position = np.array(
+        [[-200.0, 10.0], [-200.0, -10.0], [60.0, 0.0], [-500.0, 0.0], [300.0, 0.0]]
+    )
+    assert_array_equal(inside_coverage(position, coverage), [True, True, False, False, False])
+    high = np.array([[-200.0, 10.0, 450.0], [-200.0, 10.0, 100.0]])
+    assert_array_equal(inside_coverage(high, coverage), [False, True])

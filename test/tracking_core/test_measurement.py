@@ -1,0 +1,99 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What plots measure of a plane: position at their own time, range rate, parts that are absent."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
+
+from tracking_core import measurement
+from tracking_core.batches import Coverage, Mixture, Pairs, Scan
+from tracking_core.kalman import innovate
+
+SENSOR = np.array([100.0, 0.0, 0.0])  # [m]
+
+
+def make_scan(position, range_rate=None, variance=4.0) -> Scan:
+    """Make plots at these positions with correlated noise, seen from a moving platform."""
+    position = np.asarray(position, float)
+    M, d = position.shape
+    return Scan(
+        time=np.zeros(M),
+        position=position,
+        covariance=np.tile(100.0 * (np.eye(d) + 0.5), (M, 1, 1)),
+        range_rate=np.full(M, np.nan) if range_rate is None else np.asarray(range_rate, float),
+        range_rate_variance=np.full(M, variance),
+        snr=np.full(M, np.nan),
+        clutter_volume=np.ones(M),
+        sensor_position=np.tile(SENSOR, (M, 1)),
+        sensor_velocity=np.tile([0.0, 5.0, 0.0], (M, 1)),
+        coverage=Coverage(0.0, 1.0),
+        volume=1.0,
+    )
+
+
+def test_of_plane_measures_at_the_time_of_the_plot() -> None:
+    """H moves the track over the lag."""
+    scan = make_scan([[1000.0, 2000.0, 300.0]])
+    pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.array([0.5]))
+    level = measurement.of_plane((0, 1), pairs, scan)
+    assert_allclose(level.matrix[0], [[1.0, 0.5, 0.0, 0.0], [0.0, 0.0, 1.0, 0.5]])
+    assert_allclose(level.value[0], [1000.0, 2000.0])
+    assert_allclose(level.covariance[0], [[150.0, 50.0], [50.0, 150.0]])
+    height = measurement.of_plane((2,), pairs, scan)
+    assert_allclose(height.matrix[0], [[1.0, 0.5]])
+    assert_allclose(height.value[0], [300.0])
+    assert_array_equal(height.absent, [0])
+
+
+def test_of_plane_leaves_out_what_is_not_measured() -> None:
+    """A plot without height tells nothing of the vertical plane: likelihood 1, no change."""
+    scan = make_scan([[1000.0, 2000.0, np.nan]])
+    pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
+    height = measurement.of_plane((2,), pairs, scan)
+    assert_array_equal(height.absent, [1])
+    plane = Mixture(np.ones((1, 1, 2)), np.eye(2)[None, None], np.ones((1, 1)), np.zeros((1, 0)))
+    result = innovate(plane, pairs.track, height)
+    assert_allclose(result.log_likelihood, 0.0)
+    assert_allclose(result.distance, 0.0)
+    assert_allclose(result.cross_covariance, 0.0)
+
+
+def test_with_range_rate_measures_along_the_line_of_sight() -> None:
+    """U (v - v_sensor), the velocity outside the plane as predicted."""
+    velocity = np.array([[30.0, -40.0, 6.0]])
+    offset = np.array([600.0, 800.0, 240.0])  # from the sensor
+    sight = offset / np.linalg.norm(offset)
+    range_rate = sight @ (velocity[0] - [0.0, 5.0, 0.0])
+    scan = make_scan([offset + SENSOR], [range_rate])
+    pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
+    level = measurement.of_plane((0, 1), pairs, scan)
+    full = measurement.with_range_rate(
+        level, (0, 1), pairs, scan, velocity, np.array([[9.0, 9.0, 2.0]])
+    )
+    state = np.array([700.0, 30.0, 800.0, -40.0])
+    assert_allclose(full.matrix[0] @ state, full.value[0], rtol=1e-12)
+    noise = scan.covariance[0]
+    expected = 4.0 + 2.0 * sight[2] ** 2
+    expected += velocity[0] @ noise @ velocity[0] / (offset @ offset)
+    assert_allclose(full.covariance[0, 2], [0.0, 0.0, expected])
+
+
+def test_with_range_rate_ignores_plots_without() -> None:
+    """A NaN row leaves position and likelihood as they were."""
+    scan = make_scan([[700.0, 800.0], [700.0, 800.0]], [np.nan, -10.0])
+    pairs = Pairs(np.array([0, 0]), np.array([0, 1]), np.zeros(2))
+    level = measurement.of_plane((0, 1), pairs, scan)
+    full = measurement.with_range_rate(
+        level, (0, 1), pairs, scan, np.full((2, 2), 10.0), np.ones((2, 2))
+    )
+    assert_array_equal(full.absent, [1, 0])
+    plane = Mixture(
+        np.array([[[690.0, 10.0, 805.0, 10.0]]]), 50.0 * np.eye(4)[None, None], np.ones((1, 1)),
+        np.zeros((1, 0)),
+    )  # fmt: skip
+    plain, with_rate = (innovate(plane, pairs.track, item) for item in (level, full))
+    assert_allclose(with_rate.log_likelihood[0], plain.log_likelihood[0], rtol=1e-12)
+    assert_allclose(with_rate.distance[0], plain.distance[0], rtol=1e-12)
+    assert with_rate.distance[1, 0] > plain.distance[1, 0]

@@ -1,0 +1,85 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""The platform is where its samples say, between and shortly beyond them."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation, Slerp
+
+from tracking_core.platform import Platform, StalePlatform
+
+
+def sample(time, x=0.0, yaw=0.0, speed=10.0):
+    """Return one sample of a platform."""
+    return Platform(
+        time=np.array([time]),
+        position=np.array([[x, 0.0, 0.0]]),
+        orientation=Rotation.from_euler('z', yaw).as_quat().reshape(1, 4),
+        velocity=np.array([[speed, 0.0, 0.0]]),
+        position_covariance=np.eye(3)[None],
+        yaw_variance=np.array([0.01]),
+    )
+
+
+def of(*samples, **options):
+    """Return a platform with these samples."""
+    platform = Platform.empty(**options)
+    for one in samples:
+        platform = platform.add(one)
+    return platform
+
+
+def test_position_is_linear_and_orientation_turns_evenly_between_samples():
+    """Oracle: numpy's interpolation and scipy's Slerp."""
+    rng = np.random.default_rng(1)
+    time = np.sort(rng.uniform(0.0, 10.0, 6))
+    turns = Rotation.random(6, random_state=2)
+    platform = Platform(
+        time, rng.normal(size=(6, 3)), turns.as_quat(), rng.normal(size=(6, 3)),
+        np.tile(np.eye(3), (6, 1, 1)), np.ones(6),
+    )  # fmt: skip
+    times = rng.uniform(time[0], time[-1], 20)
+    pose = platform.at(times)
+    expected = [np.interp(times, time, platform.position[:, axis]) for axis in range(3)]
+    np.testing.assert_allclose(pose.position.T, expected)
+    off = Rotation.from_quat(pose.orientation).inv() * Slerp(time, turns)(times)
+    np.testing.assert_allclose(off.magnitude(), 0.0, atol=1e-9)
+
+
+def test_platform_goes_on_beyond_its_samples_for_a_while():
+    """Position by its velocity, heading by its last turn."""
+    platform = of(sample(0.0), sample(1.0, x=10.0, yaw=0.1))
+    pose = platform.at(np.array([2.0, -1.0]))
+    np.testing.assert_allclose(pose.position[:, 0], [20.0, -10.0])
+    np.testing.assert_allclose(pose.yaw, [0.2, -0.1], atol=1e-9)
+
+
+def test_one_sample_is_enough():
+    """It goes straight on."""
+    pose = of(sample(5.0, x=3.0, yaw=1.0)).at(np.array([5.0, 6.0]))
+    np.testing.assert_allclose(pose.position[:, 0], [3.0, 13.0])
+    np.testing.assert_allclose(pose.yaw, 1.0)
+
+
+@pytest.mark.parametrize('time', [-2.5, 3.5])
+def test_stale_samples_are_refused_with_age_and_limit(time):
+    """Too far before or after is an error, not a guess."""
+    platform = of(sample(0.0), sample(1.0), max_extrapolation=2.0)
+    with pytest.raises(StalePlatform, match=r'2\.5 s away.*limit 2 s'):
+        platform.at(np.array([0.5, time]))
+
+
+def test_unknown_platform_is_refused():
+    """No sample, no place; but nothing asked is nothing refused."""
+    with pytest.raises(StalePlatform, match='no sample'):
+        Platform.empty().at(np.array([1.0]))
+    assert len(Platform.empty().at(np.zeros(0)).position) == 0
+
+
+def test_samples_are_kept_in_order_and_bounded():
+    """A late sample falls into its place, a newer message of one time wins, old ones go."""
+    platform = of(
+        sample(2.0), sample(1.0), sample(3.0), sample(2.0, x=7.0), sample(4.0), capacity=3
+    )
+    np.testing.assert_array_equal(platform.time, [2.0, 3.0, 4.0])
+    assert platform.position[0, 0] == 7.0

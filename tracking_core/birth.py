@@ -1,0 +1,94 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which tracks does a scan give birth to, and which of its plots may do so later?"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from tracking_core.batches import Floats, Scan, Seeds, State, Tracks
+from tracking_core.composition import Density, Setup
+from tracking_core.initiation import one_point, plane_start, Starts, two_point
+from tracking_core.rows import concatenate, take
+from tracking_core.update import Look
+
+_CLAIMED = 0.5  # a plot more likely than this from a known contact starts no other track
+
+
+def start_tracks(
+    scan: Scan, seen: Look, density: Density, interval: float, setup: Setup, state: State
+) -> tuple[Tracks, Seeds, float]:
+    """
+    Start tracks from the plots that no track claims.
+
+    Parameters
+    ----------
+    scan : Scan
+        M plots.
+    seen : Look
+        What became of them.
+    density : Density
+        Of false plots and of new contacts.
+    interval : float
+        Between two looks [s].
+    setup, state
+        Of the tracker.
+
+    Returns
+    -------
+    born : Tracks
+        Tentative tracks, the likeliest first.
+    seeds : Seeds
+        Plots that may start a track with a later one.
+    used : float
+        Plots that the new tracks explain.
+
+    """
+    free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
+    fresh = Seeds(
+        scan.time[free],
+        scan.position[free],
+        scan.covariance[free],
+        1.0 - seen.claimed[free],
+        scan.clutter_volume[free],
+    )
+    if setup.initiation.method == 'one_point':
+        starts = one_point(fresh, density.existence, setup.initiation)
+    else:
+        starts = two_point(
+            state.seeds, fresh, density, interval,
+            setup.sensor.detection_probability, setup.least_existence, setup.initiation,
+        )  # fmt: skip
+    used = np.minimum(np.bincount(starts.plot, starts.existence_probability, len(fresh)), 1.0)
+    age = scan.coverage.end_time - state.seeds.time
+    young = take(state.seeds, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
+    left = replace(fresh, free=fresh.free * (1.0 - used))
+    born = new_tracks(starts, fresh.time, setup, state.next_id)
+    return born, concatenate(young, left), float(used.sum())
+
+
+def new_tracks(starts: Starts, plot_time: Floats, setup: Setup, first_id: int) -> Tracks:
+    """Return tentative tracks from K starts, the likeliest first; `plot_time` (M,) [s]."""
+    starts = take(starts, np.argsort(-starts.existence_probability, kind='stable'))
+    K, d = len(starts.plot), setup.sensor.dimensions
+    time, zero = plot_time[starts.plot], np.zeros(K, np.int64)
+    return Tracks(
+        id=first_id + np.arange(K),
+        time=time,
+        birth_time=time,
+        planes=tuple(
+            plane.estimator.start(*plane_start(starts, plane.coordinates))
+            for plane in setup.planes
+        ),
+        existence_probability=starts.existence_probability,
+        confirmed=np.zeros(K, bool),
+        hits=zero + starts.hits,
+        misses=zero,
+        history=zero + ((1 << starts.hits) - 1),
+        gate_size=np.full((K, d), np.nan),
+        gate_volume=np.full(K, np.nan),
+        nis=np.full(K, np.nan),
+        doubled=zero,
+    )
