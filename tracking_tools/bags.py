@@ -1,0 +1,143 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How recordings are opened and written: rosbag2 directories, by way of rosbags, no ROS graph."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
+from types import TracebackType
+from typing import Any
+
+from rosbags.highlevel import AnyReader
+from rosbags.interfaces import (
+    Connection,
+    Qos,
+    QosDurability,
+    QosHistory,
+    QosLiveliness,
+    QosReliability,
+    QosTime,
+)
+from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
+from rosbags.rosbag2.enums import CompressionFormat
+from rosbags.typesys import get_typestore, Stores
+from rosbags.typesys.store import Typestore
+
+TYPESTORE: Typestore = get_typestore(Stores.ROS2_JAZZY)
+NANOSECONDS = 1_000_000_000
+_STORAGE = 'recording'
+# What rmw reports for a publisher that sets neither deadline nor lifespan nor lease.
+_UNLIMITED = QosTime(9223372036, 854775807)
+
+
+def nanoseconds(seconds: float) -> int:
+    """Time [s] as the whole nanoseconds that bags and stamps count in."""
+    whole = int(seconds // 1)
+    return whole * NANOSECONDS + round((seconds - whole) * NANOSECONDS)
+
+
+def absolute(topic: str) -> str:
+    """Return the topic's name as bags have it, with the leading slash."""
+    return '/' + topic.lstrip('/')
+
+
+def reliable(depth: int = 10) -> Qos:
+    """Quality of service of our publishers: reliable, volatile, keep last ``depth``."""
+    return Qos(
+        history=QosHistory.KEEP_LAST,
+        depth=depth,
+        reliability=QosReliability.RELIABLE,
+        durability=QosDurability.VOLATILE,
+        deadline=_UNLIMITED,
+        lifespan=_UNLIMITED,
+        liveliness=QosLiveliness.AUTOMATIC,
+        liveliness_lease_duration=_UNLIMITED,
+        avoid_ros_namespace_conventions=False,
+    )
+
+
+def open_bag(path: Path | str) -> AnyReader:
+    """
+    Return a recording to read, mcap or sqlite3, as a context manager.
+
+    Bags that carry no message definitions are read with those of Jazzy.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise FileNotFoundError(f'no bag at {path}')
+    return AnyReader([path], default_typestore=TYPESTORE)
+
+
+class BagWriter:
+    """
+    New rosbag2 directory with mcap storage, as a context manager.
+
+    The same messages give the same bytes, whatever the directory is called: the storage file
+    inside always has the same name. The directory appears when the bag is complete. Topics are
+    announced by the first message on them or beforehand with ``announce``, so that a topic may
+    stay empty.
+
+    Parameters
+    ----------
+    path : Path or str
+        Directory to make; it must not exist.
+    compress : bool
+        Whether the storage chunks are compressed (zstd).
+
+    Raises
+    ------
+    FileExistsError
+        Where something exists at ``path``.
+
+    """
+
+    def __init__(self, path: Path | str, compress: bool = False) -> None:
+        path = Path(path)
+        if path.exists():
+            raise FileExistsError(f'{path} exists already; remove it or choose another name')
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._path = path
+        self._workshop = Path(mkdtemp(prefix=f'.{path.name}.', dir=path.parent))
+        self._writer = Writer(
+            self._workshop / _STORAGE, version=9, storage_plugin=StoragePlugin.MCAP
+        )
+        if compress:
+            self._writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+        self._connections: dict[str, Connection] = {}
+
+    def __enter__(self) -> BagWriter:
+        self._writer.open()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._writer.close()
+        if error is None:
+            (self._workshop / _STORAGE).rename(self._path)
+        rmtree(self._workshop)
+
+    def announce(self, topic: str, msgtype: str, qos: Qos | None = None) -> Connection:
+        """Add a topic, with the quality of service its publisher offers; names become absolute."""
+        topic = absolute(topic)
+        if topic not in self._connections:
+            self._connections[topic] = self._writer.add_connection(
+                topic,
+                msgtype,
+                typestore=TYPESTORE,
+                offered_qos_profiles=[reliable() if qos is None else qos],
+            )
+        return self._connections[topic]
+
+    def write(self, topic: str, msg: Any, time: int) -> None:
+        """Append a message of a rosbags type, recorded at ``time`` [ns since the epoch]."""
+        self.write_raw(topic, msg.__msgtype__, TYPESTORE.serialize_cdr(msg, msg.__msgtype__), time)
+
+    def write_raw(self, topic: str, msgtype: str, cdr: bytes | memoryview, time: int) -> None:
+        """Append a serialised message, recorded at ``time`` [ns since the epoch]."""
+        self._writer.write(self.announce(topic, msgtype), time, cdr)

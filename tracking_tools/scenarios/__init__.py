@@ -1,0 +1,33 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Simulated scenes: contacts that move exactly, seen by a radar with all its faults.
+
+Read ``trajectory`` and ``legs`` (how contacts move), ``radar`` (what sees them), ``passes``
+(when), ``plots`` (what comes out) and ``menu`` (the named scenes) in this order.
+"""
+
+from tracking_tools.scenarios.legs import Leg, Legs
+from tracking_tools.scenarios.menu import build, SCENARIOS
+from tracking_tools.scenarios.passes import Contact, find_passes, Truth
+from tracking_tools.scenarios.plots import FALSE_PLOT, plots, Scenario, SimulatedScan
+from tracking_tools.scenarios.radar import NORTH, Radar
+from tracking_tools.scenarios.trajectory import Sampled, Trajectory
+
+__all__ = [
+    'FALSE_PLOT',
+    'NORTH',
+    'SCENARIOS',
+    'Contact',
+    'Leg',
+    'Legs',
+    'Radar',
+    'Sampled',
+    'Scenario',
+    'SimulatedScan',
+    'Trajectory',
+    'Truth',
+    'build',
+    'find_passes',
+    'plots',
+]

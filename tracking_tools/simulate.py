@@ -1,0 +1,113 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How a named scenario becomes a bag, or is published live."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+import sys
+
+from tqdm import tqdm
+
+from msg_adapters.message_types import rosbags_types
+from tracking_tools.bags import BagWriter, nanoseconds
+from tracking_tools.scenarios.menu import build, SCENARIOS
+from tracking_tools.scenarios.messages import EPOCH, PLOTS, send, TRUTH
+from tracking_tools.scenarios.plots import Scenario
+
+POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
+
+
+def record(
+    scenario: Scenario, path: Path | str, sectors: int = 1, compress: bool = False
+) -> dict[str, int]:
+    """
+    Write the bag of a scenario: the same scenario gives the same bytes.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        What happens.
+    path : Path or str
+        Directory to make.
+    sectors : int
+        ``plots`` messages in a turn.
+    compress : bool
+        Whether to compress the storage.
+
+    Returns
+    -------
+    dict
+        Rows written on each topic.
+
+    """
+    rows = {PLOTS: 0, TRUTH: 0}
+    steps = sectors * scenario.radar.turns(scenario.duration)
+    with BagWriter(path, compress) as bag:
+        for topic in rows:
+            bag.announce(topic, POINT_CLOUD)
+        for sent in tqdm(
+            send(scenario, rosbags_types(), sectors), 'simulate', steps, unit='msg', disable=None
+        ):
+            for topic, msg, time in sent:
+                bag.write(topic, msg, nanoseconds(EPOCH + time))
+                rows[topic] += msg.width
+    return rows
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = _parser()
+    options, ros_arguments = _split(sys.argv[1:] if arguments is None else list(arguments))
+    chosen = parser.parse_args(options)
+    if chosen.list:
+        print('\n'.join(f'{name:18} {build(name).description}' for name in SCENARIOS))
+        return 0
+    if chosen.scenario is None or (chosen.output is None) == (not chosen.live):
+        parser.error('give a scenario and either --output BAG or --live; --list shows them all')
+    try:
+        scenario = _changed(build(chosen.scenario), chosen)
+        if chosen.live:
+            publisher = import_module('tracking_tools.publisher')  # needs rclpy, the rest does not
+            publish = publisher.publish
+            return int(publish(scenario, ros_arguments, chosen.sectors, chosen.rate, chosen.wait))
+        rows = record(scenario, chosen.output, chosen.sectors, chosen.compress)
+    except (ValueError, FileExistsError) as error:
+        parser.error(str(error))
+    print(f'{chosen.output}: {scenario.description}; {rows[PLOTS]} plots, {rows[TRUTH]} true rows')
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog='simulate', description=__doc__)
+    add = parser.add_argument
+    add('scenario', nargs='?', metavar='SCENARIO', help='name; --list shows them')
+    add('--list', action='store_true', help='list the scenarios')
+    add('--output', type=Path, metavar='BAG', help='rosbag2 directory to write')
+    add('--compress', action='store_true', help='compress the bag (zstd)')
+    add('--seed', type=int, help='of the random numbers')
+    add('--duration', type=float, metavar='S', help='how long the radar runs [s]')
+    add('--sectors', type=int, default=1, metavar='N', help='messages in a turn (default 1)')
+    add('--live', action='store_true', help='publish instead, on plots and truth')
+    add('--rate', type=float, default=1.0, help='live: times real time (default 1)')
+    add('--wait', action='store_true', help='live: begin when plots has a subscriber')
+    return parser
+
+
+def _split(arguments: list[str]) -> tuple[list[str], list[str]]:
+    """Take ``--ros-args ...`` apart from the rest."""
+    cut = arguments.index('--ros-args') if '--ros-args' in arguments else len(arguments)
+    return arguments[:cut], arguments[cut:]
+
+
+def _changed(scenario: Scenario, chosen: argparse.Namespace) -> Scenario:
+    wanted = {name: getattr(chosen, name) for name in ('seed', 'duration')}
+    return replace(scenario, **{k: v for k, v in wanted.items() if v is not None})
+
+
+if __name__ == '__main__':
+    sys.exit(main())
