@@ -11,6 +11,7 @@ comment says otherwise. Read ``tracker.py`` next.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,6 +71,27 @@ class Plots:
 
 
 @dataclass(frozen=True)
+class Bearings:
+    """Marks of one cycle as the sonar reports them: sensor axes, anticlockwise."""
+
+    time: Floats  # (M,) of each mark [s]
+    bearing: Floats  # (M,) [rad]
+    bearing_sd: Floats  # (M,) [rad], NaN: the sensor does not tell
+    snr: Floats  # (M,) [dB], NaN: not measured
+    stamp: float = 0.0  # of the message [s]
+    frame: str = ''
+
+    @staticmethod
+    def of(time: Floats, bearing: Floats, **columns: Floats) -> Bearings:
+        """Return marks; `columns` are further fields by name, the rest is NaN."""
+        absent = {name: np.full(len(time), np.nan) for name in ('bearing_sd', 'snr')}
+        return Bearings(time, bearing, **{**absent, **columns})  # type: ignore[arg-type]
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@dataclass(frozen=True)
 class Coverage:
     """
     Where and when a scan looked.
@@ -84,10 +106,19 @@ class Coverage:
     sweep: float = 0.0  # signed, anticlockwise positive [rad]
     contiguous: bool = False  # goes on where the previous scan ended
     sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # tracking frame [m]
+    sensor_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)  # at the middle of it [m/s]
     range_min: float = 0.0  # [m]
     range_max: float = np.inf  # [m]
     sector_centre: float = 0.0  # what the sensor can see at all [rad]
     sector_width: float = 2.0 * np.pi  # [rad]
+
+    def sensor_at(self, time: Floats) -> Floats:
+        """Return x, y, vx, vy (T, 4) of the sensor, which goes on straight about the middle."""
+        since = np.asarray(time) - 0.5 * (self.start_time + self.end_time)
+        state = np.empty((len(since), 4))
+        state[:, 2:] = self.sensor_velocity[:2]
+        state[:, :2] = self.sensor_position[:2] + state[:, 2:] * since[:, None]
+        return state
 
     @property
     def rotation_rate(self) -> float:
@@ -127,9 +158,13 @@ class Mixture:
 
     def moments(self) -> tuple[Floats, Floats]:
         """Return mean (T, n) and covariance (T, n, n) of the mixture, spread of means included."""
+        return self._moments
+
+    @cached_property
+    def _moments(self) -> tuple[Floats, Floats]:
         mean = np.einsum('tj,tjn->tn', self.mode_probability, self.mean)
         spread = self.mean - mean[:, None]
-        total = self.covariance + spread[..., :, None] * spread[..., None, :]
+        total = self.covariance + np.einsum('tjn,tjm->tjnm', spread, spread)
         return mean, np.einsum('tj,tjnm->tnm', self.mode_probability, total)
 
     def most_probable(self) -> tuple[Floats, Floats]:
@@ -159,6 +194,7 @@ class Tracks:
     gate_volume: Floats  # (T,) of the chi-square gate of the last look
     nis: Floats  # (T,) normalised innovation squared of the last look, NaN: none
     doubled: Ints  # (T,) looks in a row in which it looked like a second track of a contact
+    level: Floats  # (T,) usual snr of its plots [dB], NaN: not known
 
     def __len__(self) -> int:
         return len(self.id)

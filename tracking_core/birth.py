@@ -8,9 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from tracking_core.batches import Floats, Scan, Seeds, State, Tracks
+from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, State, Tracks
+from tracking_core.common_plots import places_of
 from tracking_core.composition import Density, Setup
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
+from tracking_core.linalg import symmetrise
+from tracking_core.resolution import Resolution, within_limit
 from tracking_core.rows import concatenate, take
 from tracking_core.update import Look
 
@@ -47,6 +50,8 @@ def start_tracks(
 
     """
     free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
+    if setup.resolution is not None:
+        free &= ~_hidden(scan, seen, setup, setup.resolution)
     fresh = Seeds(
         scan.time[free],
         scan.position[free],
@@ -60,27 +65,53 @@ def start_tracks(
         starts = two_point(
             state.seeds, fresh, density, interval,
             setup.sensor.detection_probability, setup.least_existence, setup.initiation,
+            setup.sensor.is_angular,
         )  # fmt: skip
+        starts = with_speed_prior(starts, setup.initiation.speed_sd)
     used = np.minimum(np.bincount(starts.plot, starts.existence_probability, len(fresh)), 1.0)
     age = scan.coverage.end_time - state.seeds.time
     young = take(state.seeds, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
     left = replace(fresh, free=fresh.free * (1.0 - used))
-    born = new_tracks(starts, fresh.time, setup, state.next_id)
+    born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)
     return born, concatenate(young, left), float(used.sum())
 
 
-def new_tracks(starts: Starts, plot_time: Floats, setup: Setup, first_id: int) -> Tracks:
+def _hidden(scan: Scan, seen: Look, setup: Setup, resolution: Resolution) -> Bools:
+    """Return which plots (M,) a contact near a known one, which has its own plot, cannot make."""
+    known = take(seen.tracks, seen.passed & seen.tracks.confirmed & (seen.tracks.misses == 0))
+    places = places_of(setup.planes, known.planes, setup.sensor.dimensions)
+    return within_limit(
+        places.mean, scan.position, scan.coverage, resolution, setup.sensor.is_angular
+    )
+
+
+def with_speed_prior(starts: Starts, sd: float) -> Starts:
+    """Return the starts, given that contacts have speeds of this sd on each axis; 0: no prior."""
+    if sd == 0.0 or len(starts.plot) == 0:
+        return starts
+    K, d, _ = starts.mean.shape
+    P = starts.covariance.reshape(K, 2 * d, 2 * d)
+    cross = P[:, :, 1::2]
+    gain = cross @ np.linalg.inv(P[:, 1::2, 1::2] + sd**2 * np.eye(d))
+    mean = starts.mean - (gain @ starts.mean[:, :, 1:]).reshape(K, d, 2)
+    covariance = symmetrise(P - gain @ np.swapaxes(cross, 1, 2))
+    return replace(starts, mean=mean, covariance=covariance.reshape(K, d, 2, d, 2))
+
+
+def new_tracks(
+    starts: Starts, plot_time: Floats, setup: Setup, first_id: int, coverage: Coverage
+) -> Tracks:
     """Return tentative tracks from K starts, the likeliest first; `plot_time` (M,) [s]."""
     starts = take(starts, np.argsort(-starts.existence_probability, kind='stable'))
     K, d = len(starts.plot), setup.sensor.dimensions
     time, zero = plot_time[starts.plot], np.zeros(K, np.int64)
+    sensor = coverage.sensor_at(time)
     return Tracks(
         id=first_id + np.arange(K),
         time=time,
         birth_time=time,
         planes=tuple(
-            plane.estimator.start(*plane_start(starts, plane.coordinates))
-            for plane in setup.planes
+            plane.start(*plane_start(starts, plane.coordinates), sensor) for plane in setup.planes
         ),
         existence_probability=starts.existence_probability,
         confirmed=np.zeros(K, bool),
@@ -91,4 +122,5 @@ def new_tracks(starts: Starts, plot_time: Floats, setup: Setup, first_id: int) -
         gate_volume=np.full(K, np.nan),
         nis=np.full(K, np.nan),
         doubled=zero,
+        level=np.full(K, np.nan),
     )

@@ -5,11 +5,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from tracking_core.association import Associator
-from tracking_core.estimators import Estimator
+from tracking_core.batches import Floats, Mixture
+from tracking_core.estimators import Estimator, SeesFromSensor
 from tracking_core.lifecycle import Lifecycle
 from tracking_core.lifecycle_config import InitiationConfig, MergeConfig
+from tracking_core.resolution import Resolution
 from tracking_core.sensing import Sensor
 
 
@@ -19,6 +22,21 @@ class Plane:
 
     estimator: Estimator
     coordinates: tuple[int, ...]
+
+    def start(self, mean: Floats, covariance: Floats, sensor: Floats) -> Mixture:
+        """Return new tracks; `sensor` (T, 4) is its x, y, vx, vy at their time [m, m/s]."""
+        return self._seen_from(self.estimator.start(mean, covariance), sensor)
+
+    def predict(self, mixture: Mixture, dt: Floats, sensor: Floats) -> Mixture:
+        """Return the plane after dt (T,) [s], when the sensor is at x, y, vx, vy (T, 4)."""
+        return self._seen_from(self.estimator.predict(mixture, dt), sensor)
+
+    def _seen_from(self, mixture: Mixture, sensor: Floats) -> Mixture:
+        return self._moving.move_sensor(mixture, sensor) if self._moving else mixture
+
+    @cached_property
+    def _moving(self) -> SeesFromSensor | None:
+        return self.estimator if isinstance(self.estimator, SeesFromSensor) else None
 
 
 @dataclass(frozen=True)
@@ -37,6 +55,7 @@ class Setup:
     least_existence: float  # of a new track
     merge: MergeConfig
     max_tracks: int
+    resolution: Resolution | None = None  # None: every contact gives its own plot
 
 
 @dataclass(frozen=True)

@@ -77,6 +77,8 @@ def _check(name: str, value: Any, f: Any) -> None:
             continue
         if not isinstance(number, (int, float)) or isinstance(number, bool):
             raise ValueError(f'{name} must be a number, got {number!r}')
+        if isinstance(f.default, int) and not isinstance(number, int):
+            raise ValueError(f'{name} must be a whole number, got {number!r}')
         low = -np.inf if meta['low'] is None else meta['low']
         high = np.inf if meta['high'] is None else meta['high']
         if not low <= number <= high:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Floats, Ints
+from tracking_core.linalg import wrap_angle
 
 
 def box_pairs(
@@ -21,11 +22,11 @@ def box_pairs(
     Parameters
     ----------
     centre : (T, d) array
-        Middle of the box of each track; only the first two coordinates are looked at.
+        Middle of the box of each track.
     half_size : (T, d) array
         Half size of the boxes.
     plots : (M, d) array
-        Positions of the plots.
+        Positions of the plots; of the first two coordinates none is NaN.
     most : int
         Bound on the pairs looked at; boxes of later tracks beyond it stay empty.
 
@@ -42,37 +43,69 @@ def box_pairs(
         centre, half_size = np.pad(centre, ((0, 0), (0, 1))), np.pad(half_size, ((0, 0), (0, 1)))
         plots = np.pad(plots, ((0, 0), (0, 1)))
     key, order, (owner, from_key, to_key) = _rows(centre, half_size, plots)
-    first = np.searchsorted(key, from_key, 'left')
-    count = np.maximum(np.searchsorted(key, to_key, 'right') - first, 0)
+    first = key.searchsorted(from_key, 'left')
+    count = np.maximum(key.searchsorted(to_key, 'right') - first, 0)
+    count[count.cumsum() > most] = 0
+    track = owner.repeat(count)
+    plot = order[_runs(first, count)]
+    for axis in range(plots.shape[1]):  # what a plot does not measure, NaN, keeps nobody out
+        apart = np.abs(plots[plot, axis] - centre[track, axis])
+        inside = ~(apart > half_size[track, axis])
+        track, plot = track[inside], plot[inside]
+    both = track * len(plots) + plot
+    both.sort()
+    return np.divmod(both, len(plots))
+
+
+def sector_pairs(
+    centre: Floats, half_size: Floats, plots: Floats, most: int = 5_000_000
+) -> tuple[Ints, Ints]:
+    """Do the same for angles (T, 1) and (M, 1), which come again every turn [rad]."""
+    M = len(plots)
+    if len(centre) == 0 or M == 0:
+        return np.zeros(0, np.int64), np.zeros(0, np.int64)
+    angle, half = wrap_angle(plots[:, 0]), np.minimum(half_size[:, 0], np.pi * (1.0 - 1e-12))
+    order = np.argsort(angle, kind='stable')[: np.isfinite(angle).sum()]  # NaN comes last
+    turn = np.array([-2.0, 0.0, 2.0])[:, None] * np.pi
+    around, middle = (angle[order] + turn).reshape(-1), wrap_angle(centre[:, 0])
+    first = np.searchsorted(around, middle - half, 'left')
+    count = np.searchsorted(around, middle + half, 'right') - first
     count[np.cumsum(count) > most] = 0
-    track = np.repeat(owner, count)
-    plot = order[np.repeat(first - np.cumsum(count) + count, count) + np.arange(count.sum())]
-    inside = (np.abs(plots[plot, :2] - centre[track, :2]) <= half_size[track, :2]).all(axis=1)
-    track, plot = track[inside], plot[inside]
-    by_track = np.lexsort((plot, track))
-    return track[by_track], plot[by_track]
+    track = np.repeat(np.arange(len(centre)), count)
+    place = _runs(first, count)
+    return np.divmod(np.sort(track * M + order[place % max(len(order), 1)]), M)
 
 
 def _rows(
     centre: Floats, half_size: Floats, plots: Floats
 ) -> tuple[Floats, Ints, tuple[Ints, Floats, Floats]]:
     """Return plots as sorted keys (row number times width, plus x), and what tracks look for."""
-    left, bottom = plots[:, 0].min(), plots[:, 1].min()
-    width = 2.0 * (plots[:, 0].max() - left) + 1.0
-    height = max(2.0 * float(np.median(half_size[:, 1])), 1e-9)
-    rows = int(min((plots[:, 1].max() - bottom) / height, 10_000.0)) + 1
-    height = max((plots[:, 1].max() - bottom) / rows, 1e-9) * (1.0 + 1e-9)
-    row = np.minimum(((plots[:, 1] - bottom) / height).astype(np.int64), rows - 1)
-    key = row * width + (plots[:, 0] - left)
-    order = np.argsort(key, kind='stable')
+    x, y = plots[:, 0], plots[:, 1]
+    left, bottom, top = x.min(), y.min(), y.max()
+    width = 2.0 * (x.max() - left) + 1.0
+    height = max(2.0 * float(np.sort(half_size[:, 1])[len(centre) // 2]), 1e-9)
+    rows = int(min((top - bottom) / height, 10_000.0)) + 1
+    height = max((top - bottom) / rows, 1e-9) * (1.0 + 1e-9)
+    row = np.minimum(((y - bottom) / height).astype(np.int64), rows - 1)
+    key = row * width + (x - left)
+    order = key.argsort(kind='stable')
 
     low, high = centre - half_size, centre + half_size
-    first_row = np.clip(np.floor((low[:, 1] - bottom) / height), 0, rows).astype(np.int64)
-    last_row = np.clip(np.floor((high[:, 1] - bottom) / height), -1, rows - 1).astype(np.int64)
+    first_row = _bound(np.floor((low[:, 1] - bottom) / height), 0, rows).astype(np.int64)
+    last_row = _bound(np.floor((high[:, 1] - bottom) / height), -1, rows - 1).astype(np.int64)
     touched = np.maximum(last_row - first_row + 1, 0)
-    owner = np.repeat(np.arange(len(centre)), touched)
-    into = np.arange(touched.sum()) - np.repeat(np.cumsum(touched) - touched, touched)
-    base = (first_row[owner] + into) * width
-    from_x = np.clip(low[owner, 0] - left, 0.0, width / 2.0)
-    to_x = np.clip(high[owner, 0] - left, -1.0, width / 2.0 - 0.5)
+    owner = np.arange(len(centre)).repeat(touched)
+    base = _runs(first_row, touched) * width
+    from_x = _bound(low[owner, 0] - left, 0.0, width / 2.0)
+    to_x = _bound(high[owner, 0] - left, -1.0, width / 2.0)
     return key[order], order, (owner, base + from_x, base + to_x)
+
+
+def _runs(first: Ints, count: Ints) -> Ints:
+    """Return first, first + 1, ... for each, `count` numbers of it, all in a row."""
+    ends = count.cumsum()
+    return np.asarray((first - ends + count).repeat(count) + np.arange(count.sum()))
+
+
+def _bound(values: Floats, least: float, most: float) -> Floats:
+    return np.asarray(np.minimum(np.maximum(values, least), most))

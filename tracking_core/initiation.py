@@ -10,10 +10,13 @@ import numpy as np
 
 from tracking_core.batches import Floats, Ints, Seeds
 from tracking_core.composition import Density
-from tracking_core.gating import box_pairs
+from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import InitiationConfig
+from tracking_core.linalg import wrap_angle
+from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_variance
 from tracking_core.rows import take
 
+_MOST_PAIRS = 1_000_000  # of plots looked at; the last seeds go without
 _NOISE_SIGMAS = 3.0  # by how much of the plots' noise the speed limit is widened
 
 
@@ -40,14 +43,14 @@ def one_point(fresh: Seeds, existence: float, config: InitiationConfig) -> Start
     """
     Start a track on every plot, at rest, with a velocity prior as wide as the speed limit.
 
-    The prior is Gaussian with the variance of a uniform one in each coordinate.
+    The prior is Gaussian with the variance of velocities even within the limit.
     """
     K, d = fresh.position.shape
     mean, covariance = np.zeros((K, d, 2)), np.zeros((K, d, 2, d, 2))
     mean[:, :, 0] = fresh.position
     covariance[:, :, 0, :, 0] = fresh.covariance
     axis = np.arange(d)
-    covariance[:, axis, 1, axis, 1] = _limits(d, config) ** 2 / 3.0
+    covariance[:, axis, 1, axis, 1] = velocity_variance(d, config)
     return Starts(mean, covariance, existence * fresh.free, np.arange(K), 1)
 
 
@@ -59,6 +62,7 @@ def two_point(
     detection_probability: float,
     least_existence: float,
     config: InitiationConfig,
+    is_angular: bool = False,
 ) -> Starts:
     """
     Start a track on every pair of an older and a fresh plot that keeps the speed limit.
@@ -77,6 +81,8 @@ def two_point(
         Pairs less likely than this are not worth a track; dense clutter starts nothing.
     config : InitiationConfig
         Speed limits.
+    is_angular : bool
+        Plots are angles.
 
     Returns
     -------
@@ -84,41 +90,28 @@ def two_point(
         P = [R1, R1/T; R1/T, (R0 + R1)/T^2] per [ZHUK09] section 4, for full R.
 
     """
-    odds = _Odds(density, detection_probability, config)
-    alone = odds.of_pair(seeds, seeds, np.full(len(seeds), interval))
-    prior = density.existence * seeds.free
-    seeds = take(seeds, prior * alone >= least_existence * (1.0 - prior + prior * alone))
-    prior = density.existence * seeds.free
+    odds = Odds(density, detection_probability, config)
+    alone = odds.of_pair(
+        seeds, seeds, np.zeros_like(seeds.position), np.full(len(seeds), interval)
+    )  # at best
+    most = MOST_NEW * seeds.free
+    seeds = take(seeds, most * alone >= least_existence * (1.0 - most + most * alone))
 
-    old, new = _within_reach(seeds, fresh, 0.5 * interval, config)
+    old, new = _within_reach(seeds, fresh, 0.5 * interval, config, is_angular)
     dt = fresh.time[new] - seeds.time[old]
     looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
-    likely = odds.of_pair(take(seeds, old), take(fresh, new), dt)
+    step = _step(seeds, fresh, old, new, is_angular)
+    likely = odds.of_pair(take(seeds, old), take(fresh, new), step, dt)
     likely = likely * (1.0 - detection_probability) ** looks_between
-    missed = 1.0 - prior * detection_probability
-    total = missed + prior * np.bincount(old, likely, len(seeds))
-    existence = prior[old] * likely / total[old]
+    evidence = np.bincount(old, likely, len(seeds)) - detection_probability
+    prior = share_of_new(density.existence, np.asarray(evidence), seeds.free) * seeds.free
+    existence = prior[old] * likely / (1.0 + prior * evidence)[old]
     keep = existence >= least_existence
-    return _starts(seeds, fresh, old[keep], new[keep], existence[keep])
-
-
-@dataclass(frozen=True)
-class _Odds:
-    """How much likelier a second plot is when the first was a contact's than when it was not."""
-
-    density: Density
-    detection_probability: float
-    config: InitiationConfig
-
-    def of_pair(self, first: Seeds, second: Seeds, dt: Floats) -> Floats:
-        """Return P_D over the number of other plots within reach after dt (K,) [s]."""
-        volume = _reachable_volume(first.covariance, dt, self.config)
-        others = self.density.total * second.clutter_volume * volume
-        return self.detection_probability * second.free / np.maximum(others, 1e-300)
+    return _starts(seeds, fresh, old[keep], new[keep], existence[keep], is_angular)
 
 
 def _within_reach(
-    seeds: Seeds, fresh: Seeds, shortest: float, config: InitiationConfig
+    seeds: Seeds, fresh: Seeds, shortest: float, config: InitiationConfig, is_angular: bool
 ) -> tuple[Ints, Ints]:
     if len(seeds) == 0 or len(fresh) == 0:
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
@@ -126,13 +119,14 @@ def _within_reach(
     noise = _NOISE_SIGMAS * np.sqrt(
         _variances(seeds.covariance) + _variances(fresh.covariance).max(axis=0)
     )
-    limit = _limits(seeds.position.shape[1], config)
-    old, new = box_pairs(seeds.position, limit * longest[:, None] + noise, fresh.position)
+    limit = limits(seeds.position.shape[1], config)
+    find = sector_pairs if is_angular else box_pairs
+    old, new = find(seeds.position, limit * longest[:, None] + noise, fresh.position, _MOST_PAIRS)
     dt = (fresh.time[new] - seeds.time[old])[:, None]
     noise = _NOISE_SIGMAS * np.sqrt(
         _variances(seeds.covariance)[old] + _variances(fresh.covariance)[new]
     )
-    step = np.abs(fresh.position[new] - seeds.position[old])
+    step = np.abs(_step(seeds, fresh, old, new, is_angular))
     slack = np.maximum(step - noise, 0.0)
     fits = np.linalg.norm(slack[:, :2], axis=1) <= config.speed_max * dt[:, 0]
     fits &= dt[:, 0] > shortest
@@ -140,33 +134,24 @@ def _within_reach(
     return old[fits], new[fits]
 
 
-def _limits(d: int, config: InitiationConfig) -> Floats:
-    return np.array([config.speed_max] * min(d, 2) + [config.climb_max] * (d - 2))
-
-
 def _variances(covariance: Floats) -> Floats:
     return np.asarray(np.einsum('mdd->md', covariance))
 
 
-def _reachable_volume(covariance: Floats, dt: Floats, config: InitiationConfig) -> Floats:
-    """Return the volume (K,) in which the second plot of a contact would lie."""
-    sd = np.sqrt(_variances(covariance))
-    across = config.speed_max * dt + sd[:, :2].mean(axis=1)
-    if covariance.shape[1] == 1:
-        return np.asarray(2.0 * across)
-    volume = np.pi * across**2
-    if covariance.shape[1] == 3:
-        volume = volume * 2.0 * (config.climb_max * dt + _NOISE_SIGMAS * sd[:, 2])
-    return np.asarray(volume)
+def _step(seeds: Seeds, fresh: Seeds, old: Ints, new: Ints, is_angular: bool) -> Floats:
+    step = fresh.position[new] - seeds.position[old]
+    return wrap_angle(step) if is_angular else step
 
 
-def _starts(seeds: Seeds, fresh: Seeds, old: Ints, new: Ints, existence: Floats) -> Starts:
+def _starts(
+    seeds: Seeds, fresh: Seeds, old: Ints, new: Ints, existence: Floats, is_angular: bool
+) -> Starts:
     dt = (fresh.time[new] - seeds.time[old])[:, None]
     R0, R1 = seeds.covariance[old], fresh.covariance[new]
     K, d = len(old), fresh.position.shape[1]
     mean, covariance = np.empty((K, d, 2)), np.empty((K, d, 2, d, 2))
     mean[:, :, 0] = fresh.position[new]
-    mean[:, :, 1] = (fresh.position[new] - seeds.position[old]) / dt
+    mean[:, :, 1] = _step(seeds, fresh, old, new, is_angular) / dt
     over_dt = R1 / dt[..., None]
     covariance[:, :, 0, :, 0], covariance[:, :, 1, :, 1] = R1, (R0 + R1) / dt[..., None] ** 2
     covariance[:, :, 0, :, 1] = covariance[:, :, 1, :, 0] = over_dt

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
-from tracking_core.linalg import inverse, sum_by_track, symmetrise
+from tracking_core.linalg import inverse, over_modes, sum_by_track, symmetrise
 
 _LOG_TWO_PI = float(np.log(2.0 * np.pi))
 _LEAST_MODE_PROBABILITY = 1e-300  # divides nothing by zero; such a mode has no weight anyway
@@ -36,10 +36,14 @@ def innovate(mixture: Mixture, track: Ints, measurement: Measurement) -> Innovat
     [ZHUK09] eq. 22 to 24 with the sign, S^-1 and (2 pi)^(d/2) that print lacks.
 
     """
-    H = measurement.matrix[:, None]  # (P, 1, d, n)
-    cross = mixture.covariance[track] @ np.swapaxes(H, -1, -2)  # P H^T
-    S = H @ cross + measurement.covariance[:, None]
-    nu = measurement.value[:, None] - (H @ mixture.mean[track][..., None])[..., 0]
+    mean, covariance = mixture.mean.take(track, axis=0), mixture.covariance.take(track, axis=0)
+    H = measurement.matrix  # (P, d, n)
+    H_transposed = np.swapaxes(H, -1, -2)
+    P, J, n = mean.shape
+    cross = covariance.reshape(P, J * n, n) @ H_transposed  # P H^T, of all modes at once
+    cross = cross.reshape(P, J, n, H.shape[1])
+    S = H[:, None] @ cross + measurement.covariance[:, None]
+    nu = measurement.value[:, None] - mean @ H_transposed
     return from_innovation(nu, S, cross, measurement.absent)
 
 
@@ -55,8 +59,10 @@ def from_innovation(nu: Floats, S: Floats, cross: Floats, absent: Ints) -> Innov
 def mixture_log_likelihood(mode_probability: Floats, innovations: Innovations) -> Floats:
     """Return log sum_j mu_j Lambda_j (P,), the likelihood of a pair; mu (P, J)."""
     weight = log(mode_probability) + innovations.log_likelihood
-    top = weight.max(axis=1)
-    return np.asarray(top + np.log(np.exp(weight - top[:, None]).sum(axis=1)))
+    top = over_modes(np.maximum, weight)
+    top = np.where(np.isfinite(top), top, 0.0)  # no mode can have made the plot: log 0
+    with np.errstate(divide='ignore'):
+        return np.asarray(top + np.log(over_modes(np.add, np.exp(weight - top[:, None]))))
 
 
 def log(probability: Floats) -> Floats:
@@ -108,21 +114,21 @@ def condition(
     """
     T, prior = len(mixture.mean), mixture.mode_probability
     weight = log(prior)[track] + innovations.log_likelihood
-    weight = np.exp(weight - weight.max(axis=1, keepdims=True, initial=-np.inf))
-    weight *= (association.probability / weight.sum(axis=1))[:, None]  # (P, J)
+    weight = np.exp(weight - over_modes(np.maximum, weight)[:, None])
+    weight *= (association.probability / over_modes(np.add, weight))[:, None]  # (P, J)
     posterior = association.miss[:, None] * prior + sum_by_track(weight, track, T)
     safe = np.maximum(posterior, _LEAST_MODE_PROBABILITY)
     weight = weight / safe[track]
 
     shift = (gain @ innovations.innovation[..., None])[..., 0]  # K nu
-    K_cross = gain @ np.swapaxes(innovations.cross_covariance, -1, -2)
-    K_S = gain @ innovations.covariance
-    change = K_S @ np.swapaxes(gain, -1, -2) - K_cross - np.swapaxes(K_cross, -1, -2)
-    change += shift[..., :, None] * shift[..., None, :]
+    cross = innovations.cross_covariance
+    change = (gain @ innovations.covariance - cross) @ np.swapaxes(gain, -1, -2)
+    change -= gain @ np.swapaxes(cross, -1, -2)
+    change += np.einsum('pjn,pjm->pjnm', shift, shift)
     mean_shift = sum_by_track(weight[..., None] * shift, track, T)
     covariance = mixture.covariance + sum_by_track(weight[..., None, None] * change, track, T)
-    covariance -= mean_shift[..., :, None] * mean_shift[..., None, :]
-    total = posterior.sum(axis=1, keepdims=True)
+    covariance -= np.einsum('tjn,tjm->tjnm', mean_shift, mean_shift)
+    total = over_modes(np.add, posterior)[:, None]
     return Mixture(
         mean=mixture.mean + mean_shift,
         covariance=symmetrise(covariance),

@@ -10,9 +10,10 @@ from typing import Protocol
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints, Tracks
-from tracking_core.lifecycle_config import ExistenceConfig, MOfNConfig
+from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
 
 _HISTORY = (1 << 60) - 1  # looks remembered as bits
+_MORE_THAN_NOT = 0.5
 _OUTSIDE_LOOKS = 5  # looks outside the coverage after which a track has left
 
 
@@ -21,6 +22,15 @@ class Lifecycle(Protocol):
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
+        ...
+
+    def hits(self, found: Floats, error_ratio: Floats) -> Bools:
+        """
+        Return which tracks (T,) count this look as one with a plot.
+
+        `found` is the chance that a plot is theirs, `error_ratio` the sd of their place after the
+        look over that before.
+        """
         ...
 
     def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
@@ -44,6 +54,10 @@ class Existence:
         survival = np.exp(-np.maximum(dt, 0.0) / self.config.lifetime)
         return np.asarray(tracks.existence_probability * survival)
 
+    def hits(self, found: Floats, error_ratio: Floats) -> Bools:
+        """Return which tracks (T,) more probably than not have a plot."""
+        return np.asarray(found > _MORE_THAN_NOT)
+
     def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""
         confirmed = tracks.confirmed | (existence >= self.config.confirm)
@@ -60,16 +74,50 @@ class MOfN:
         """Return 1 (T,): counting knows no doubt."""
         return np.ones(len(tracks))
 
+    def hits(self, found: Floats, error_ratio: Floats) -> Bools:
+        """Return which tracks (T,) more probably than not have a plot."""
+        return np.asarray(found > _MORE_THAN_NOT)
+
     def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""
-        window = np.int64((1 << self.config.looks) - 1)
-        confirmed = tracks.confirmed | (_ones(tracks.history & window) >= self.config.hits)
-        hopeless = tracks.misses > self.config.looks - self.config.hits
-        lost = tracks.misses >= self.config.drop_misses
-        return confirmed, np.where(confirmed, lost, hopeless)
+        return _count(tracks, self.config)
 
 
-LIFECYCLES = {'existence': Existence, 'm_of_n': MOfN}
+@dataclass(frozen=True)
+class ErrorRatio:
+    """
+    As `MOfN`, but what counts is whether a look has made the track any surer of its place.
+
+    References
+    ----------
+    [VORONINA19] eq. 15, with the comparison put right: the ratio is below 1 when a plot was used.
+
+    """
+
+    config: ErrorRatioConfig
+
+    def prior(self, tracks: Tracks, dt: Floats) -> Floats:
+        """Return 1 (T,): counting knows no doubt."""
+        return np.ones(len(tracks))
+
+    def hits(self, found: Floats, error_ratio: Floats) -> Bools:
+        """Return which tracks (T,) are surer of their place than before."""
+        return np.asarray(error_ratio < self.config.ratio)
+
+    def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
+        """Return which tracks (T,) are confirmed and which are to be deleted."""
+        return _count(tracks, self.config)
+
+
+LIFECYCLES = {'existence': Existence, 'm_of_n': MOfN, 'error_ratio': ErrorRatio}
+
+
+def _count(tracks: Tracks, config: MOfNConfig | ErrorRatioConfig) -> tuple[Bools, Bools]:
+    window = np.int64((1 << config.looks) - 1)
+    confirmed = tracks.confirmed | (_ones(tracks.history & window) >= config.hits)
+    hopeless = tracks.misses > config.looks - config.hits
+    lost = tracks.misses >= config.drop_misses
+    return confirmed, np.where(confirmed, lost, hopeless)
 
 
 def _ones(bits: Ints) -> Ints:

@@ -73,8 +73,12 @@ class InitiationConfig:
         doc='from two plots in successive looks, or from one with a velocity prior',
     )  # fmt: skip
     speed_max: float = parameter(
-        600.0, unit='m/s', doc='fastest contact to start on', low=0.1, live=True
+        600.0, unit='m/s', doc='fastest contact to start on', low=1e-6, live=True
     )
+    speed_sd: float = parameter(
+        0.0, unit='m/s', low=0.0, live=True,
+        doc='usual speed of new contacts on each axis, which tames two noisy plots; 0: no prior',
+    )  # fmt: skip
     climb_max: float = parameter(
         100.0, unit='m/s', doc='steepest climb or descent to start on (3-D)', low=0.1, live=True
     )
@@ -89,11 +93,35 @@ class InitiationConfig:
 
 
 @dataclass(frozen=True)
+class ErrorRatioConfig:
+    """When a track is believed: looks that sharpened it, counted [VORONINA19] (15)."""
+
+    ratio: float = parameter(
+        0.9999, unit='1', doc='sd after over sd before; a look at or above gave nothing', low=0.5,
+        high=1.0, live=True,
+    )  # fmt: skip
+    hits: int = parameter(4, unit='1', doc='looks that sharpen it confirm a track', low=1, high=60,
+                          live=True)  # fmt: skip
+    looks: int = parameter(6, unit='1', doc='... within so many looks', low=1, high=60, live=True)
+    drop_misses: int = parameter(
+        5, unit='1', doc='a confirmed track is deleted after so many looks in a row that gave '
+        'nothing', low=1, high=60, live=True,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+        if self.hits > self.looks:
+            raise ValueError(f'ErrorRatioConfig.hits must be at most looks = {self.looks}, '
+                             f'got {self.hits}')  # fmt: skip
+
+
+@dataclass(frozen=True)
 class MergeConfig:
     """When two tracks are one contact."""
 
     distance: float = parameter(
-        1.0, unit='1', low=0.0, high=10.0, live=True,
+        0.5, unit='1', low=0.0, high=10.0, live=True,
         doc='states closer than this Mahalanobis distance are duplicates; 0: never merge',
     )  # fmt: skip
 

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
+
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints
@@ -14,18 +16,32 @@ def wrap_angle(angle: Floats) -> Floats:
     return np.asarray((angle + np.pi) % (2.0 * np.pi) - np.pi)
 
 
+def nearest_turn(angle: Floats, reference: Floats) -> Floats:
+    """Return the angle, whole turns added, that is nearest to the reference [rad]."""
+    return np.asarray(reference + wrap_angle(angle - reference))
+
+
 def symmetrise(matrix: Floats) -> Floats:
     """Return the symmetric part of (..., n, n)."""
     return np.asarray(0.5 * (matrix + np.swapaxes(matrix, -1, -2)))
 
 
+def determinant(matrix: Floats) -> Floats:
+    """Return the determinants of symmetric (..., d, d)."""
+    if matrix.shape[-1] == 1:
+        return matrix[..., 0, 0]
+    if matrix.shape[-1] == 2:
+        return np.asarray(matrix[..., 0, 0] * matrix[..., 1, 1] - matrix[..., 0, 1] ** 2)
+    return np.asarray(np.linalg.det(matrix))
+
+
 def inverse(matrix: Floats) -> tuple[Floats, Floats]:
     """
-    Invert symmetric matrices of one to three rows in closed form.
+    Invert symmetric matrices, those of one to three rows in closed form.
 
     Parameters
     ----------
-    matrix : (..., d, d) array, d = 1, 2 or 3
+    matrix : (..., d, d) array
         Symmetric.
 
     Returns
@@ -46,8 +62,8 @@ def inverse(matrix: Floats) -> tuple[Floats, Floats]:
         result[..., 0, 0], result[..., 1, 1] = c / determinant, a / determinant
         result[..., 0, 1] = result[..., 1, 0] = -b / determinant
         return result, determinant
-    if size != 3:
-        raise ValueError(f'inverse takes matrices of 1 to 3 rows, got {size}')
+    if size > 3:
+        return np.asarray(np.linalg.inv(matrix)), np.asarray(np.linalg.det(matrix))
     e, f, g = matrix[..., 0, 2], matrix[..., 1, 2], matrix[..., 2, 2]
     aa, ab, ae = c * g - f * f, e * f - b * g, b * f - c * e
     determinant = a * aa + b * ab + e * ae
@@ -61,19 +77,22 @@ def inverse(matrix: Floats) -> tuple[Floats, Floats]:
 
 
 def is_positive_definite(matrix: Floats) -> Bools:
-    """Return for each (..., n, n) whether every leading minor is positive and finite."""
-    finite = np.asarray(np.isfinite(matrix).all(axis=(-1, -2)))
-    safe = np.where(finite[..., None, None], matrix, np.eye(matrix.shape[-1]))
-    pivots, good = safe.copy(), np.asarray(finite)
-    for k in range(matrix.shape[-1]):  # elimination: all pivots positive <=> positive definite
-        pivot = pivots[..., k, k]
-        good = good & (pivot > 0.0)
-        safe_pivot = np.where(pivot > 0.0, pivot, 1.0)
-        column = pivots[..., k + 1 :, k]
-        pivots[..., k + 1 :, k + 1 :] -= (
-            column[..., :, None] * column[..., None, :] / safe_pivot[..., None, None]
-        )
-    return np.asarray(good)
+    """Return for each (..., n, n) whether every pivot is positive and finite."""
+    n = matrix.shape[-1]
+    pivots = matrix.reshape(-1, n, n).transpose(1, 2, 0).copy()  # many matrices innermost: fast
+    good = np.isfinite(pivots).all(axis=(0, 1))
+    with np.errstate(all='ignore'):  # of those that are not
+        for k in range(n):
+            good &= pivots[k, k] > 0.0
+            pivots[k + 1 :, k + 1 :] -= pivots[k + 1 :, None, k] * (
+                pivots[None, k, k + 1 :] / pivots[k, k]
+            )
+    return np.asarray(good.reshape(matrix.shape[:-2]))
+
+
+def over_modes(join: np.ufunc, values: Floats) -> Floats:
+    """Return values (T, J, ...) joined over the modes; numpy itself is slow where J is small."""
+    return np.asarray(reduce(join, np.swapaxes(values, 0, 1)))
 
 
 def sum_by_track(rows: Floats, track: Ints, tracks: int) -> Floats:
@@ -97,6 +116,14 @@ def sum_by_track(rows: Floats, track: Ints, tracks: int) -> Floats:
     """
     result = np.zeros((tracks, *rows.shape[1:]))
     if len(track):
-        starts = np.flatnonzero(np.diff(track, prepend=-1))
+        starts = first_rows(track)
         result[track[starts]] = np.add.reduceat(rows, starts, axis=0)
     return result
+
+
+def first_rows(label: Ints) -> Ints:
+    """Return the first row (L,) of each of L labels that stand in order in (P,), P > 0."""
+    is_first = np.empty(len(label), np.bool_)
+    is_first[0] = True
+    np.not_equal(label[1:], label[:-1], out=is_first[1:])
+    return is_first.nonzero()[0]

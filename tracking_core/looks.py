@@ -53,15 +53,15 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
         azimuth = _azimuth(position + velocity * (latest - time)[:, None], coverage)
         latest = coverage.end_time - _travel(azimuth, coverage) / abs(rate)
     margin = LARGEST_MARGIN * period
-    earliest = np.maximum(
-        time + 0.5 * period, coverage.start_time - (margin if coverage.contiguous else 0.0)
-    )
+    # A pass may have waited for its neighbours; longer ago than that it was lost.
+    waited = (LONGEST_WAIT + LARGEST_MARGIN) * period if coverage.contiguous else 0.0
+    earliest = np.maximum(time + 0.5 * period, coverage.start_time - waited)
     turns = np.ceil((earliest - latest) / period - 1e-9)
     passed = latest + np.maximum(turns, -1.0) * period
     # A turn after `latest` the contact is elsewhere, by more than its gate if it is fast and near.
     azimuth = _azimuth(position + velocity * (passed - time)[:, None], coverage)
     antenna = coverage.start_azimuth + rate * (passed - coverage.start_time)
-    passed = passed + wrap_angle(azimuth - antenna) / rate
+    passed = np.maximum(passed + wrap_angle(azimuth - antenna) / rate, time + 0.5 * period)
     return Looks(passed, passed - margin < coverage.end_time)
 
 
@@ -93,19 +93,22 @@ def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
     rate = abs(coverage.rotation_rate)
     if rate == 0.0:
         return np.zeros(len(position))
-    distance = np.linalg.norm(position - np.array(coverage.sensor_position[:2]), axis=1)
-    angle = np.arctan2(half_size, distance)
+    x, y = coverage.sensor_position[:2]
+    angle = np.arctan2(half_size, np.hypot(position[:, 0] - x, position[:, 1] - y))
     return np.asarray(np.minimum(angle, LARGEST_MARGIN * 2.0 * np.pi) / rate)
 
 
 def inside_coverage(position: Floats, coverage: Coverage) -> Bools:
-    """Return for positions (T, 2) or (T, 3) whether the sensor can see there at all."""
+    """Return for positions (T, 2) or (T, 3), or bearings (T, 1), whether the sensor sees there."""
+    if position.shape[1] == 1:
+        return _in_sector(position[:, 0], coverage)
     offset = position - np.array(coverage.sensor_position[: position.shape[1]])
-    distance = np.linalg.norm(offset, axis=1)
+    distance = np.sqrt(np.einsum('td,td->t', offset, offset))
     angle = np.arctan2(offset[:, 1], offset[:, 0])
+    within = (distance >= coverage.range_min) & (distance <= coverage.range_max)
+    return np.asarray(within & _in_sector(angle, coverage))
+
+
+def _in_sector(angle: Floats, coverage: Coverage) -> Bools:
     off_centre = np.abs(wrap_angle(angle - coverage.sector_centre))
-    return np.asarray(
-        (distance >= coverage.range_min)
-        & (distance <= coverage.range_max)
-        & (off_centre <= 0.5 * coverage.sector_width + 1e-12)
-    )
+    return np.asarray(off_centre <= 0.5 * coverage.sector_width + 1e-12)

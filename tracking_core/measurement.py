@@ -7,9 +7,12 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Floats, Measurement, Pairs, Scan
+from tracking_core.linalg import nearest_turn
 
 
-def of_plane(coordinates: tuple[int, ...], pairs: Pairs, scan: Scan) -> Measurement:
+def of_plane(
+    coordinates: tuple[int, ...], pairs: Pairs, scan: Scan, near: Floats | None = None
+) -> Measurement:
     """
     Measure the position of a plane, z = position + velocity times lag.
 
@@ -24,6 +27,8 @@ def of_plane(coordinates: tuple[int, ...], pairs: Pairs, scan: Scan) -> Measurem
         P pairs.
     scan : Scan
         Plots; a coordinate that is NaN is absent.
+    near : (P, d) array, optional
+        For plots that are angles: where they are expected, to within half a turn [rad].
 
     Returns
     -------
@@ -33,13 +38,14 @@ def of_plane(coordinates: tuple[int, ...], pairs: Pairs, scan: Scan) -> Measurem
     """
     d = len(coordinates)
     at = np.array(coordinates)
-    value = scan.position[pairs.plot][:, at]
-    covariance = scan.covariance[pairs.plot][:, at[:, None], at[None, :]]
+    value = scan.position[pairs.plot[:, None], at]
+    if near is not None:
+        value = nearest_turn(value, near[:, at])
+    covariance = scan.covariance[pairs.plot[:, None, None], at[:, None], at]
     matrix = np.zeros((len(pairs), d, 2 * d))
-    axis = np.arange(d)
-    matrix[:, axis, 2 * axis] = 1.0
-    matrix[:, axis, 2 * axis + 1] = pairs.lag[:, None]
-    return _without_absent(value, matrix, covariance)
+    for axis in range(d):
+        matrix[:, axis, 2 * axis], matrix[:, axis, 2 * axis + 1] = 1.0, pairs.lag
+    return without_absent(value, matrix, covariance)
 
 
 def with_range_rate(
@@ -94,15 +100,16 @@ def _append(old: Measurement, value: Floats, row: Floats, variance: Floats) -> M
     covariance = np.zeros((P, d + 1, d + 1))
     covariance[:, :d, :d], covariance[:, d, d] = old.covariance, variance
     full = np.concatenate([old.value, value[:, None]], axis=1)
-    new = _without_absent(full, np.concatenate([old.matrix, row], axis=1), covariance)
+    new = without_absent(full, np.concatenate([old.matrix, row], axis=1), covariance)
     return Measurement(new.value, new.matrix, new.covariance, new.absent + old.absent)
 
 
-def _without_absent(value: Floats, matrix: Floats, covariance: Floats) -> Measurement:
+def without_absent(value: Floats, matrix: Floats, covariance: Floats) -> Measurement:
     """Neutralise NaN components: nothing measured, noise of variance 1 apart from the rest."""
     absent = np.isnan(value)
-    count = absent.sum(axis=1)
-    if count.any():
+    count = np.zeros(len(value), np.int64)
+    if absent.any():
+        count = absent.sum(axis=1)
         value, matrix = np.where(absent, 0.0, value), np.where(absent[..., None], 0.0, matrix)
         covariance = np.where(absent[..., :, None] | absent[..., None, :], 0.0, covariance)
         axis = np.arange(value.shape[1])

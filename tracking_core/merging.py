@@ -9,12 +9,14 @@ from dataclasses import replace
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints, Tracks
-from tracking_core.gating import box_pairs
+from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import MergeConfig
-from tracking_core.linalg import symmetrise
+from tracking_core.linalg import symmetrise, wrap_angle
 
 
-def end_doubles(tracks: Tracks, passed: Bools, config: MergeConfig) -> tuple[Tracks, Bools]:
+def end_doubles(
+    tracks: Tracks, passed: Bools, config: MergeConfig, is_angular: bool = False
+) -> tuple[Tracks, Bools]:
     """
     Return the tracks with their looks as doubles counted, and which of them are to go.
 
@@ -29,31 +31,34 @@ def end_doubles(tracks: Tracks, passed: Bools, config: MergeConfig) -> tuple[Tra
         Looked at in this scan.
     config : MergeConfig
         What counts as near, and how long.
+    is_angular : bool
+        Positions are angles.
 
     """
-    near = duplicates(tracks, config.distance)
+    near = duplicates(tracks, config.distance, is_angular)
     looks = np.where(near, tracks.doubled + 1, 0)
     tracks = replace(tracks, doubled=np.where(passed, looks, tracks.doubled))
     return tracks, near & (~tracks.confirmed | (tracks.doubled >= config.looks))
 
 
-def duplicates(tracks: Tracks, distance: float) -> Bools:
+def duplicates(tracks: Tracks, distance: float, is_angular: bool = False) -> Bools:
     """
     Return which tracks (T,) are second ones on a contact that an older or surer track follows.
 
     Two tracks are one when their states are within `distance` (Mahalanobis, in the sum of their
-    covariances) in every plane.
+    covariances) in every plane. Of angular states only angle and rate count.
     """
     T = len(tracks)
     lost = np.zeros(T, bool)
     if distance == 0.0 or T < 2:
         return lost
-    moments = [plane.moments() for plane in tracks.planes]
+    moments = [_compared(*plane.moments(), is_angular) for plane in tracks.planes]
     mean, covariance = moments[0]
     position = mean[:, 0::2]
-    sd = np.sqrt(np.einsum('tnn->tn', covariance)[:, 0::2])
+    sd = np.sqrt(covariance.diagonal(0, 1, 2)[:, 0::2])
     # Each looks as far as the pair may be apart if it is the vaguer one of the two.
-    one, other = box_pairs(position, np.sqrt(2.0 * mean.shape[1]) * distance * sd, position)
+    find = sector_pairs if is_angular else box_pairs
+    one, other = find(position, np.sqrt(2.0 * mean.shape[1]) * distance * sd, position)
     apart = one != other
     first, second = np.minimum(one, other)[apart], np.maximum(one, other)[apart]
     if len(first) == 0:
@@ -61,18 +66,27 @@ def duplicates(tracks: Tracks, distance: float) -> Bools:
     close = np.ones(len(first), bool)
     dt = tracks.time[second] - tracks.time[first]
     for m, P in moments:
-        close &= _distance_squared(m, P, first, second, dt) <= distance**2 * m.shape[1]
+        squared = _distance_squared(m, P, first, second, dt, is_angular)
+        close &= squared <= distance**2 * m.shape[1]
     first, second = first[close], second[close]
     rank = _rank(tracks)
     lost[np.where(rank[first] < rank[second], second, first)] = True
     return lost
 
 
-def _distance_squared(mean: Floats, P: Floats, first: Ints, second: Ints, dt: Floats) -> Floats:
+def _compared(mean: Floats, covariance: Floats, is_angular: bool) -> tuple[Floats, Floats]:
+    return (mean[:, :2], covariance[:, :2, :2]) if is_angular else (mean, covariance)
+
+
+def _distance_squared(
+    mean: Floats, P: Floats, first: Ints, second: Ints, dt: Floats, is_angular: bool
+) -> Floats:
     """Return the squared distance of track pairs, the earlier moved to the later's time."""
     moved = mean[first].copy()
     moved[:, 0::2] += moved[:, 1::2] * dt[:, None]
     delta = mean[second] - moved
+    if is_angular:
+        delta[:, 0::2] = wrap_angle(delta[:, 0::2])
     total = symmetrise(P[first] + P[second])
     return np.asarray((delta * np.linalg.solve(total, delta[..., None])[..., 0]).sum(axis=1))
 

@@ -6,10 +6,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
 from tracking_core.batches import Floats
+
+
+class Chain(Protocol):
+    """What a filter asks about the modes."""
+
+    @property
+    def modes(self) -> int:
+        """Number of modes J."""
+        ...
+
+    @property
+    def stationary(self) -> Floats:
+        """Mode probabilities (J,) after a long time."""
+        ...
+
+    def transition_probability(self, dt: Floats) -> Floats:
+        """Return Pi (T, J, J) over the times dt (T,) [s]; entry [t, i, j] is from i to j."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -56,4 +75,4 @@ class ModeChain:
         """Return Pi (T, J, J) over the times dt (T,) [s]; entry [t, i, j] is from i to j."""
         values, left, right = self._spectrum
         decay = np.exp(np.minimum(values, 0.0) * np.asarray(dt)[:, None])  # (T, J)
-        return np.asarray(np.clip((left * decay[:, None, :]) @ right, 0.0, 1.0))
+        return np.minimum(np.maximum((left * decay[:, None, :]) @ right, 0.0), 1.0)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -13,8 +14,9 @@ from scipy.special import gammaincinv
 from tracking_core import measurement
 from tracking_core.batches import Coverage, Floats, Innovations, Ints, Mixture, Pairs, Scan
 from tracking_core.composition import Plane
-from tracking_core.gating import box_pairs
+from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.kalman import mixture_log_likelihood
+from tracking_core.linalg import determinant, over_modes
 from tracking_core.rows import take
 from tracking_core.sensing import Sensor
 
@@ -42,6 +44,9 @@ class Gated:
     innovations: tuple[Innovations, ...]  # one per plane
     distance: Floats  # (P,) least Mahalanobis distance squared of any mode
     log_likelihood: Floats  # (P,) product over planes of the mode mixtures
+    common: (
+        Ints  # (P,) row of the common plot that it is a part of, -1: the plot is the track's own
+    )
 
 
 @lru_cache(maxsize=64)
@@ -71,23 +76,32 @@ def open_gates(
     velocity, velocity_variance = np.zeros((T, d)), np.zeros((T, d))
     moments = [mixture.moments() for mixture in mixtures]
     for plane, (m, P) in zip(planes, moments, strict=True):
-        at, diagonal = list(plane.coordinates), np.einsum('tnn->tn', P)
-        mean[:, at], velocity[:, at] = m[:, 0::2], m[:, 1::2]
-        variance[:, at], velocity_variance[:, at] = diagonal[:, 0::2], diagonal[:, 1::2]
+        at, diagonal = list(plane.coordinates), P.diagonal(0, 1, 2)
+        place, rate = axes_of(at)
+        mean[:, at], velocity[:, at] = m[:, place], m[:, rate]
+        variance[:, at], velocity_variance[:, at] = diagonal[:, place], diagonal[:, rate]
     R = sensor.noise(mean, coverage)
     low, high = np.empty((T, d)), np.empty((T, d))
     volume = np.full(T, _UNIT_BALL[d] * threshold ** (0.5 * d))
     for plane, mixture, (_, P) in zip(planes, mixtures, moments, strict=True):
         at = list(plane.coordinates)
         noise = R[:, at][:, :, at]
-        spread = np.einsum('tjnn->tjn', mixture.covariance)[..., 0::2]
-        half = np.sqrt(threshold * (spread + np.einsum('tdd->td', noise)[:, None]))
-        low[:, at] = (mixture.mean[..., 0::2] - _BOX_MARGIN * half).min(axis=1)
-        high[:, at] = (mixture.mean[..., 0::2] + _BOX_MARGIN * half).max(axis=1)
-        volume *= np.sqrt(np.maximum(np.linalg.det(P[:, 0::2, 0::2] + noise), 0.0))
-    three_sigma = 3.0 * np.sqrt(variance + np.einsum('tdd->td', R))
+        place, _ = axes_of(at)
+        spread = mixture.covariance.diagonal(0, 2, 3)[..., place]
+        variance_here = np.maximum(spread + noise.diagonal(0, 1, 2)[:, None], 0.0)
+        half = _BOX_MARGIN * np.sqrt(threshold * variance_here)
+        low[:, at] = over_modes(np.minimum, mixture.mean[..., place] - half)
+        high[:, at] = over_modes(np.maximum, mixture.mean[..., place] + half)
+        volume *= np.sqrt(np.maximum(determinant(P[:, place, place] + noise), 0.0))
+    three_sigma = 3.0 * np.sqrt(variance + R.diagonal(0, 1, 2))
     centre = 0.5 * (low + high)
     return Gates(centre, high - centre, three_sigma, volume, velocity, velocity_variance)
+
+
+def axes_of(coordinates: Sequence[int]) -> tuple[slice, slice]:
+    """Return where positions and velocities stand in the state of a plane."""
+    size = 2 * len(coordinates)
+    return slice(0, size, 2), slice(1, size, 2)
 
 
 def pair(
@@ -98,6 +112,7 @@ def pair(
     longest_lag: Floats,
     scan: Scan,
     bounds: Floats,
+    is_angular: bool,
 ) -> Gated:
     """
     Find the plots inside the gate of any mode.
@@ -116,14 +131,18 @@ def pair(
         M plots.
     bounds : (d + 2,) array
         Chi-square bound by number of components.
+    is_angular : bool
+        Plots are angles.
 
     """
     reach = gates.half_size + np.abs(gates.velocity) * longest_lag[:, None]
-    track, plot = box_pairs(gates.centre, reach, scan.position)
+    find = sector_pairs if is_angular else box_pairs
+    track, plot = find(gates.centre, reach, scan.position)
     lag = scan.time[plot] - time[track]
     near = np.abs(lag) <= longest_lag[track] + 1e-9
     pairs = Pairs(track[near], plot[near], lag[near])
-    gated, dof = _innovate(planes, mixtures, gates, pairs, scan)
+    expected = gates.centre[pairs.track] if is_angular else None
+    gated, dof = _innovate(planes, mixtures, gates, pairs, scan, expected)
     return take(gated, gated.distance <= bounds[dof])
 
 
@@ -133,13 +152,14 @@ def _innovate(
     gates: Gates,
     pairs: Pairs,
     scan: Scan,
+    expected: Floats | None,
 ) -> tuple[Gated, Ints]:
     """Compare all candidates with their predictions; count the components of each plot."""
     has_range_rate = bool(np.isfinite(scan.range_rate).any())
     distance, log_likelihood = np.zeros(len(pairs)), np.zeros(len(pairs))
     dof, innovations = np.zeros(len(pairs), np.int64), []
     for plane, mixture in zip(planes, mixtures, strict=True):
-        measured = measurement.of_plane(plane.coordinates, pairs, scan)
+        measured = measurement.of_plane(plane.coordinates, pairs, scan, expected)
         if has_range_rate and 0 in plane.coordinates:
             measured = measurement.with_range_rate(
                 measured, plane.coordinates, pairs, scan,
@@ -147,7 +167,8 @@ def _innovate(
             )  # fmt: skip
         item = plane.estimator.innovate(mixture, pairs.track, measured)
         innovations.append(item)
-        distance += item.distance.min(axis=1)
+        distance += over_modes(np.minimum, item.distance)
         log_likelihood += mixture_log_likelihood(mixture.mode_probability[pairs.track], item)
         dof += measured.value.shape[1] - measured.absent
-    return Gated(pairs, tuple(innovations), distance, log_likelihood), dof
+    own = np.full(len(pairs), -1)
+    return Gated(pairs, tuple(innovations), distance, log_likelihood, own), dof

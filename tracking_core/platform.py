@@ -38,6 +38,18 @@ class PlatformPose:
         x, y, z, w = self.orientation.T
         return np.asarray(np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)))
 
+    @property
+    def rotation(self) -> Floats:
+        """Matrices (M, 3, 3) from platform axes to tracking axes."""
+        x, y, z, w = self.orientation.T
+        matrix = np.empty((len(x), 3, 3))
+        matrix[:, 0, 0], matrix[:, 1, 1] = 1.0 - 2.0 * (y * y + z * z), 1.0 - 2.0 * (x * x + z * z)
+        matrix[:, 2, 2] = 1.0 - 2.0 * (x * x + y * y)
+        matrix[:, 0, 1], matrix[:, 1, 0] = 2.0 * (x * y - z * w), 2.0 * (x * y + z * w)
+        matrix[:, 0, 2], matrix[:, 2, 0] = 2.0 * (x * z + y * w), 2.0 * (x * z - y * w)
+        matrix[:, 1, 2], matrix[:, 2, 1] = 2.0 * (y * z - x * w), 2.0 * (y * z + x * w)
+        return matrix
+
 
 @dataclass(frozen=True)
 class Platform:
@@ -122,6 +134,20 @@ class Platform:
                     f'plots are {age:.3g} s away from the samples of the platform, '
                     f'limit {self.max_extrapolation:g} s'
                 )
+
+
+def pose_at(platform: Platform | None, times: Floats) -> PlatformPose:
+    """Return own ship at these times (M,) [s], at rest at the origin if there is none."""
+    if platform is not None:
+        return platform.at(times)
+    M = len(times)
+    return PlatformPose(
+        position=np.zeros((M, 3)),
+        orientation=np.tile([0.0, 0.0, 0.0, 1.0], (M, 1)),
+        velocity=np.zeros((M, 3)),
+        position_covariance=np.zeros((M, 3, 3)),
+        yaw_variance=np.zeros(M),
+    )
 
 
 _ARRAYS = tuple(

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracking_core.batches import Floats, Ints, Mixture, Scan, Tracks
+from tracking_core.batches import Bools, Floats, Ints, Mixture, Scan, Tracks
 from tracking_core.composition import Setup
+from tracking_core.gating import box_pairs
 from tracking_core.looks import inside_coverage, margins, next_looks
 from tracking_core.pairing import Gates, open_gates, thresholds
 from tracking_core.rows import take
@@ -29,17 +30,17 @@ class Predicted:
     gates: Gates
     existence_probability: Floats  # (T,) predicted
     detection: Floats  # (T,) P_D, 0 outside the coverage
+    crowd: Floats  # (T,) plot space in the gate: how many strange plots it may hold
 
 
 def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
     """Bring the tracks that the antenna is near to the time at which it points at them."""
-    mean, _ = tracks.planes[0].moments()
-    looks = next_looks(mean[:, 0::2], mean[:, 1::2], tracks.time, scan.coverage)
+    looks = next_looks(*_level_motion(tracks), tracks.time, scan.coverage)
     row = np.flatnonzero(looks.near)
-    near, time = take(tracks, row), looks.time[row]
-    dt = time - near.time
+    near, time = take(tracks, looks.near), looks.time[row]
+    dt, sensor = time - near.time, scan.coverage.sensor_at(time)
     planes = tuple(
-        plane.estimator.predict(mixture, dt)
+        plane.predict(mixture, dt, sensor)
         for plane, mixture in zip(setup.planes, near.planes, strict=True)
     )
     d = setup.sensor.dimensions
@@ -50,19 +51,42 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
     return Predicted(
         row, near, time, margins(gates.centre[:, :2], widest, scan.coverage), planes, gates,
         setup.lifecycle.prior(near, dt), np.where(inside, setup.sensor.detection_probability, 0.0),
+        gates.volume * setup.sensor.clutter_volume(gates.centre, scan.coverage),
     )  # fmt: skip
 
 
-def is_passed_again(updated: Tracks, scan: Scan) -> bool:
-    """Return whether the antenna has come to a track near the cut a second time in a message."""
+def next_passes(updated: Tracks, scan: Scan) -> tuple[bool, Bools]:
+    """
+    Return whether the antenna has passed a track near the cut a second time in a message.
+
+    A second pass may also have begun only: then its plots (M,) must wait, they are the other
+    thing returned.
+    """
+    waiting = np.zeros(len(scan), bool)
     if abs(scan.coverage.sweep) < np.pi:
-        return False
-    mean, _ = updated.planes[0].moments()
-    looks = next_looks(mean[:, 0::2], mean[:, 1::2], updated.time, scan.coverage)
-    # A pass that has only begun counts: its plot may be here already, and must wait.
+        return False, waiting
+    position, velocity = _level_motion(updated)
+    looks = next_looks(position, velocity, updated.time, scan.coverage)
     size = _GATES_APART * updated.gate_size[:, :2].max(axis=1, initial=0.0)
-    begun = looks.time - margins(mean[:, 0::2], size, scan.coverage)
-    return bool((begun <= scan.coverage.end_time).any())
+    margin = margins(position, size, scan.coverage)
+    begun = looks.time - margin <= scan.coverage.end_time
+    if begun.any():
+        ahead = (looks.time - updated.time)[begun, None]
+        box = np.repeat(size[begun, None], 2, axis=1)
+        track, plot = box_pairs(
+            position[begun] + velocity[begun] * ahead, box, scan.position[:, :2]
+        )
+        early = np.abs(scan.time[plot] - looks.time[begun][track]) <= margin[begun][track]
+        waiting[plot[early]] = True
+    # A little more than complete, lest a contact beside the cut takes turns at waiting or not.
+    complete = looks.time + 2.0 * margin <= scan.coverage.end_time
+    return bool(complete.any()), waiting
+
+
+def _level_motion(tracks: Tracks) -> tuple[Floats, Floats]:
+    """Return position and velocity (T, 2) over the ground; of a sonar bearing and rate (T, 1)."""
+    mean, _ = tracks.planes[0].moments()
+    return mean[:, 0:4:2], mean[:, 1:4:2]
 
 
 def longest_lag(near: Predicted, scan: Scan) -> Floats:

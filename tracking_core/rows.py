@@ -17,46 +17,60 @@ Batch = TypeVar('Batch')
 
 def take(batch: Batch, rows: NDArray[Any] | slice) -> Batch:
     """Return the batch of these rows: every array is indexed, everything else is kept."""
-    return cast('Batch', _each(batch, lambda array: array[rows]))
+    if isinstance(rows, np.ndarray) and rows.dtype == np.bool_:
+        if rows.all():
+            return batch  # the usual case: nothing was deleted, all were passed
+        rows = rows.nonzero()[0]
+    return cast('Batch', _take(batch, rows))
 
 
 def concatenate(first: Batch, second: Batch) -> Batch:
     """Return one batch with the rows of both; what is not an array comes from the second."""
-    return cast('Batch', _each(second, lambda new, old: np.concatenate([old, new]), first))
+    return cast('Batch', _join(second, first, _append))
 
 
 def put(batch: Batch, rows: NDArray[Any], part: Batch) -> Batch:
     """Return the batch with these rows replaced by the rows of `part`."""
-    return cast('Batch', _each(batch, lambda old, new: _put(old, rows, new), part))
+
+    def replace(old: NDArray[Any], new: NDArray[Any]) -> NDArray[Any]:
+        if len(new) == len(old):
+            return new
+        result = old.copy()
+        result[rows] = new
+        return result
+
+    return cast('Batch', _join(batch, part, replace))
 
 
-def _put(old: NDArray[Any], rows: NDArray[Any], new: NDArray[Any]) -> NDArray[Any]:
-    if len(new) == len(old):
-        return new
-    result = old.copy()
-    result[rows] = new
-    return result
+def _append(new: NDArray[Any], old: NDArray[Any]) -> NDArray[Any]:
+    return np.concatenate([old, new])
 
 
-def _each(value: Any, change: Callable[..., Any], *others: Any) -> Any:
-    """Apply `change` to every array of a dataclass, of those in it and in its tuples."""
+def _take(value: Any, rows: NDArray[Any] | slice) -> Any:
+    """Index every array of a dataclass, of those in it and in its tuples."""
     if isinstance(value, np.ndarray):
-        return change(value, *others)
-    if isinstance(value, (int, float, str)) or value is None:
-        return value
+        return value[rows] if isinstance(rows, slice) else value.take(rows, axis=0)
     if isinstance(value, tuple):
-        return tuple(_each(*(v[0], change, *v[1:])) for v in zip(value, *others, strict=True))
-    if not is_dataclass(value):
-        return value
+        return tuple([_take(part, rows) for part in value])
     kind: Any = type(value)
-    return kind(
-        *(
-            _each(getattr(value, name), change, *(getattr(o, name) for o in others))
-            for name in _names(kind)
-        )
-    )
+    names = _names(kind)
+    return kind(*[_take(getattr(value, n), rows) for n in names]) if names else value
+
+
+def _join(value: Any, other: Any, join: Callable[..., NDArray[Any]]) -> Any:
+    """Join every array of a dataclass with that of another of the same kind."""
+    if isinstance(value, np.ndarray):
+        return join(value, other)
+    if isinstance(value, tuple):
+        return tuple([_join(*both, join) for both in zip(value, other, strict=True)])
+    kind: Any = type(value)
+    names = _names(kind)
+    if not names:
+        return value
+    return kind(*[_join(getattr(value, n), getattr(other, n), join) for n in names])
 
 
 @lru_cache(maxsize=64)
-def _names(batch: type) -> tuple[str, ...]:
-    return tuple(f.name for f in fields(batch))
+def _names(kind: type) -> tuple[str, ...]:
+    """Return the fields of a dataclass, none for any other type."""
+    return tuple(f.name for f in fields(kind)) if is_dataclass(kind) else ()

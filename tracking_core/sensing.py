@@ -18,6 +18,11 @@ class Sensor(Protocol):
         ...
 
     @property
+    def is_angular(self) -> bool:
+        """Whether the coordinates of a plot are angles, which come again every turn."""
+        ...
+
+    @property
     def detection_probability(self) -> float:
         """Chance that a look at a contact gives a plot."""
         ...
@@ -29,4 +34,8 @@ class Sensor(Protocol):
 
     def noise(self, position: Floats, coverage: Coverage) -> Floats:
         """Return the plot covariance (T, d, d) expected at positions (T, d)."""
+        ...
+
+    def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
+        """Return the plot space in a unit of position space at positions (T, d)."""
         ...

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import expit
 
+from tracking_core.association.partitions import has_alternatives, over_partitions
 from tracking_core.batches import Association, Bools, Floats, Scan
+from tracking_core.common_plots import Common
 from tracking_core.composition import Density, Setup
 from tracking_core.kalman import log
 from tracking_core.lifecycle import existence_after
@@ -24,6 +26,7 @@ class Share:
     association: Association  # given that the tracks exist
     existence_probability: Floats  # (T,)
     claim: Floats  # (P,) chance that the pair is right and the contact exists
+    found: Floats  # (T,) chance that a contact which exists made a plot, or was drowned in one
     approximate: Bools  # (T,)
 
 
@@ -34,6 +37,7 @@ def share_plots(
     scan: Scan,
     setup: Setup,
     density: Density,
+    common: Common | None = None,
 ) -> Share:
     """
     Share the plots among the tracks, and judge from them whether the tracks exist.
@@ -52,6 +56,8 @@ def share_plots(
         Association method and gate probability.
     density : Density
         Of plots that no known contact makes.
+    common : Common, optional
+        Plots that several tracks may have in common, if there are such.
 
     References
     ----------
@@ -59,18 +65,69 @@ def share_plots(
 
     """
     track = gated.pairs.track
+    if common is not None:
+        existence = common.existence_apart
     weight = log(detection_probability * existence)[track] + gated.log_likelihood
     weight = weight - np.log(_other_sources(gated, scan, setup, density))
     detection = detection_probability * setup.gate_probability
     log_miss = np.log1p(-detection * existence)
-    shared = setup.associate(track, gated.pairs.plot, weight, log_miss, len(scan))
+    hidden = np.zeros(len(existence))
+    if common is None:
+        shared = setup.associate(track, gated.pairs.plot, weight, log_miss, len(scan))
+    else:
+        shared, hidden = _share_in_common(gated, weight, log_miss, scan, setup, density, common)
 
     exists = 1.0 if setup.is_soft else expit(weight - log(1.0 - existence)[track])
     claim = shared.probability * exists
-    found = sum_by_track(claim, track, len(existence))
+    found = sum_by_track(claim, track, len(existence)) + hidden
     posterior, missed = existence_after(existence, shared.miss, found, detection)
-    given = Association(claim / np.maximum(posterior, 1e-300)[track], missed, shared.approximate)
-    return Share(given, posterior, claim, shared.approximate)
+    safe = np.maximum(posterior, 1e-300)
+    given = Association(claim / safe[track], missed + hidden / safe, shared.approximate)
+    if common is not None:  # a plot of all is claimed once, not by each of its tracks
+        claim = claim / np.append(common.law_size, 1)[gated.common]  # own: -1
+    return Share(given, posterior, claim, 1.0 - missed, shared.approximate)
+
+
+def _share_in_common(
+    gated: Gated, weight: Floats, log_miss: Floats, scan: Scan, setup: Setup, density: Density,
+    common: Common,
+) -> tuple[Association, Floats]:  # fmt: skip
+    """
+    Share the plots where some may belong to several tracks.
+
+    Tracks with nobody near go the usual way, unless they compete with tracks that have. Also
+    returns the chance (T,) that a track is drowned by another, and so is not missed.
+    """
+    T, own, plots = len(log_miss), gated.common < 0, len(scan)
+    P_D = 1.0 - (1.0 - setup.sensor.detection_probability) ** common.size
+    other = density.total * scan.clutter_volume[common.plot]
+    shared_weight = np.log(P_D[common.unit]) + common.log_likelihood - np.log(other)
+    miss = np.concatenate([log_miss, np.log1p(-P_D[T:] * setup.gate_probability)])
+    unit = np.concatenate([gated.pairs.track[own], common.unit])
+    plot = np.concatenate([gated.pairs.plot[own], common.plot])
+    busy = has_alternatives(unit, plot, plots, common.partitions)[unit]
+    alone = np.flatnonzero(own)[~busy[: own.sum()]]
+
+    usual = setup.associate(
+        gated.pairs.track[alone], gated.pairs.plot[alone], weight[alone], log_miss, plots
+    )
+    both = np.concatenate([weight[own], shared_weight])
+    by_unit, rough = over_partitions(
+        unit[busy], plot[busy], both[busy], miss, plots, common.partitions
+    )
+    of_unit = np.zeros(len(unit))
+    of_unit[busy] = by_unit
+    probability = np.empty(len(weight))
+    probability[own] = of_unit[: own.sum()]
+    probability[alone] = usual.probability
+    in_common, law = of_unit[own.sum() :], gated.common[~own]
+    probability[~own] = in_common[common.law_pair[law]] * common.law_part[law]
+    drowned = in_common[common.hidden_pair] * common.hidden_part
+    hidden = np.zeros(T)
+    np.add.at(hidden, common.hidden_track, drowned)
+    taken = sum_by_track(probability, gated.pairs.track, T) + hidden
+    approximate = usual.approximate | rough[common.partitions.unit_group[:T]]
+    return Association(probability, np.maximum(1.0 - taken, 0.0), approximate), hidden
 
 
 def _other_sources(gated: Gated, scan: Scan, setup: Setup, density: Density) -> Floats:

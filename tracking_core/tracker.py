@@ -50,7 +50,9 @@ class Tracker:
         seeds = Seeds(np.zeros(0), np.zeros((0, d)), np.zeros((0, d, d)), np.zeros(0), np.zeros(0))
         first = self.state.next_id if next_id is None else next_id
         self.state = State(
-            new_tracks(nothing, seeds.time, self.setup, first), seeds, next_id=first
+            new_tracks(nothing, seeds.time, self.setup, first, Coverage(0.0, 0.0)),
+            seeds,
+            next_id=first,
         )
 
     @property
@@ -84,13 +86,14 @@ class Tracker:
         seen = self._look(scan, density)
         born, seeds, used = start_tracks(scan, seen, density, interval, self.setup, state)
 
-        living = take(seen.tracks, ~seen.deleted)
-        living, doubled = end_doubles(living, seen.passed[~seen.deleted], self.setup.merge)
+        living, doubled = end_doubles(
+            seen.tracks, seen.passed, self.setup.merge, self.setup.sensor.is_angular
+        )
         kept = take(living, ~doubled)
         fitting = take(born, slice(0, max(self.setup.max_tracks - len(kept), 0)))
         clutter, looks = self._clutter(scan, seen, used)
         self.state = State(
-            tracks=concatenate(kept, fitting),
+            tracks=concatenate(kept, fitting) if len(fitting) else kept,
             seeds=seeds,
             held=take(scan, seen.waiting) if seen.waiting.any() else None,
             next_id=state.next_id + len(born),
@@ -107,12 +110,12 @@ class Tracker:
                 refused=len(born) - len(fitting),
                 broken=seen.broken,
                 clutter_density=density.clutter,
-                deleted=np.concatenate([seen.tracks.id[seen.deleted], living.id[doubled]]),
+                deleted=np.concatenate([seen.ended, living.id[doubled]]),
             ),
         )
         return self.state.tracks
 
-    def acquire(self, position: Floats, time: float) -> int:
+    def acquire(self, position: Floats, time: float, coverage: Coverage | None = None) -> int:
         """
         Start a confirmed track at a position, at rest with a velocity prior; return its id.
 
@@ -122,13 +125,15 @@ class Tracker:
             [m]
         time : float
             [s]
+        coverage : Coverage, optional
+            Where the sensor is, if not at rest in the origin.
 
         """
-        coverage = Coverage(time, time)
+        coverage = coverage or Coverage(time, time)
         noise = self.setup.sensor.noise(position[None], coverage)
         seed = Seeds(np.array([time]), position[None], np.asarray(noise), np.ones(1), np.ones(1))
         starts = one_point(seed, 1.0, self.setup.initiation)
-        born = new_tracks(starts, seed.time, self.setup, self.state.next_id)
+        born = new_tracks(starts, seed.time, self.setup, self.state.next_id, coverage)
         born = replace(born, confirmed=np.ones(1, bool))
         tracks = concatenate(self.state.tracks, born)
         self.state = replace(self.state, tracks=tracks, next_id=self.state.next_id + 1)

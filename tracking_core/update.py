@@ -12,6 +12,8 @@ from tracking_core.association import clusters
 from tracking_core.batches import (
     Bools,
     Floats,
+    Ints,
+    Mixture,
     Scan,
     Tracks,
 )  # fmt: skip
@@ -20,21 +22,27 @@ from tracking_core.lifecycle import count_looks, has_left
 from tracking_core.linalg import is_positive_definite, sum_by_track
 from tracking_core.looks import LONGEST_WAIT
 from tracking_core.pairing import Gated, pair, thresholds
-from tracking_core.prediction import is_passed_again, longest_lag, predict_tracks, Predicted
+from tracking_core.prediction import longest_lag, next_passes, predict_tracks, Predicted
 from tracking_core.rows import put, take
 from tracking_core.sharing import Share, share_plots
+from tracking_core.unresolved import add_common
+
+_LOST = 10.0  # strange plots expected in the gate of a track that is no track any more
+
+_LEVEL_GAIN = 0.05  # of the usual snr: contacts flutter from look to look
 
 
 @dataclass(frozen=True)
 class Look:
     """The tracks after a look, and what became of the plots."""
 
-    tracks: Tracks
-    deleted: Bools  # (T,)
+    tracks: Tracks  # those that live on
+    kept: Bools  # (T,) of the tracks before: which live on
+    ended: Ints  # ids of the others
     broken: int  # tracks deleted because a covariance was not positive definite
     claimed: Floats  # (M,) chance that a known contact made the plot
     waiting: Bools  # (M,) in the gate of a track that the antenna has not passed yet
-    passed: Bools  # (T,) worked on
+    passed: Bools  # of the tracks that live on: which were worked on
     pairs: int
     approximate: int  # tracks with marginals from belief propagation
     again: bool  # the antenna has passed a track once more in the same scan
@@ -44,11 +52,12 @@ class Look:
         claimed = self.claimed + second.claimed
         return Look(
             tracks=second.tracks,
-            deleted=self.deleted | second.deleted,
+            kept=second.kept,
+            ended=np.concatenate([self.ended, second.ended]),
             broken=self.broken + second.broken,
             claimed=claimed,
             waiting=(self.waiting | second.waiting) & (claimed == 0.0),
-            passed=self.passed | second.passed,
+            passed=self.passed[second.kept] | second.passed,
             pairs=self.pairs + second.pairs,
             approximate=self.approximate + second.approximate,
             again=second.again,
@@ -74,32 +83,38 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     near = predict_tracks(tracks, scan, setup)
     bounds = thresholds(setup.gate_probability, setup.sensor.dimensions)
     gated = pair(
-        setup.planes, near.planes, near.gates, near.time, longest_lag(near, scan), scan, bounds
-    )
+        setup.planes, near.planes, near.gates, near.time, longest_lag(near, scan), scan, bounds,
+        setup.sensor.is_angular,
+    )  # fmt: skip
     due = _due(near, gated, scan)
     waiting = np.zeros(len(scan), bool)
     waiting[gated.pairs.plot[~due[gated.pairs.track]]] = True
 
     gated = _of_tracks(gated, due & (near.detection > 0.0), due)
     passed = take(near, due)
+    gated, common = add_common(passed, gated, scan, setup)
     share = share_plots(
-        passed.existence_probability, passed.detection, gated, scan, setup, density
+        passed.existence_probability, passed.detection, gated, scan, setup, density, common
     )
-    updated, left, broken = _update(passed, gated, share, setup)
+    updated, ended, broken = _update(passed, gated, share, scan, setup)
+    ended |= passed.crowd * density.total > _LOST  # it follows nobody any more
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
-    deleted, worked_on = np.zeros(len(tracks), bool), np.zeros(len(tracks), bool)
-    deleted[passed.row], worked_on[passed.row] = left | broken, True
+    lives = ~(ended | broken)
+    again, early = next_passes(take(updated, lives), scan)
+    kept, worked_on = np.ones(len(tracks), bool), np.zeros(len(tracks), bool)
+    kept[passed.row], worked_on[passed.row] = lives, True
     return Look(
-        tracks=put(tracks, passed.row, updated),
-        deleted=deleted,
+        tracks=take(put(tracks, passed.row, updated), kept),
+        kept=kept,
+        ended=tracks.id[~kept],
         broken=int(broken.sum()),
         claimed=claimed,
-        waiting=waiting & (claimed == 0.0),
-        passed=worked_on,
+        waiting=(waiting | early) & (claimed == 0.0),
+        passed=worked_on[kept],
         pairs=len(gated.pairs),
         approximate=int(share.approximate.sum()),
-        again=is_passed_again(updated, scan),
+        again=again,
     )
 
 
@@ -130,7 +145,7 @@ def _of_tracks(gated: Gated, visible: Bools, kept: Bools) -> Gated:
 
 
 def _update(
-    passed: Predicted, gated: Gated, share: Share, setup: Setup
+    passed: Predicted, gated: Gated, share: Share, scan: Scan, setup: Setup
 ) -> tuple[Tracks, Bools, Bools]:
     """Return the updated tracks, which have ended, and which are no longer sound."""
     track, T = gated.pairs.track, len(passed.row)
@@ -140,18 +155,38 @@ def _update(
             setup.planes, passed.planes, gated.innovations, strict=True
         )
     )
-    found = 1.0 - share.association.miss
+    found = share.found
+    hit = setup.lifecycle.hits(found, _error_ratio(passed.planes[0], planes[0]))
     weighted = sum_by_track(share.association.probability * gated.distance, track, T)
     tracks = replace(
-        count_looks(passed.tracks, found > 0.5),
+        count_looks(passed.tracks, hit),
         time=passed.time,
         planes=planes,
         existence_probability=share.existence_probability,
         gate_size=passed.gates.three_sigma,
         gate_volume=passed.gates.volume,
+        level=_follow_level(passed.tracks, gated, share, scan),
         nis=np.where(found > 0.5, weighted / np.maximum(found, 0.5), np.nan),
     )
     confirmed, ended = setup.lifecycle.judge(tracks, share.existence_probability)
     ended |= has_left(tracks, passed.detection > 0.0)
     sound = [is_positive_definite(mixture.covariance).all(axis=1) for mixture in planes]
     return replace(tracks, confirmed=confirmed), ended, ~np.all(sound, axis=0)
+
+
+def _follow_level(tracks: Tracks, gated: Gated, share: Share, scan: Scan) -> Floats:
+    """Return the usual snr (T,) [dB]: plots in common do not tell whose it is."""
+    track, T, snr = gated.pairs.track, len(tracks), scan.snr[gated.pairs.plot]
+    told = (gated.common < 0) & np.isfinite(snr)
+    weight = np.where(told, share.association.probability, 0.0)
+    total = sum_by_track(weight, track, T)
+    mean = sum_by_track(weight * np.where(told, snr, 0.0), track, T) / np.maximum(total, 1e-300)
+    old = np.where(np.isfinite(tracks.level), tracks.level, mean)
+    gain = total * np.maximum(_LEVEL_GAIN, 1.0 / (1.0 + tracks.hits))
+    return np.where((total > 0.5) | np.isfinite(tracks.level), old + gain * (mean - old), np.nan)
+
+
+def _error_ratio(before: Mixture, after: Mixture) -> Floats:
+    """Return by what factor (T,) the look has changed the sd of the tracks' first coordinate."""
+    old, new = before.moments()[1][:, 0, 0], after.moments()[1][:, 0, 0]
+    return np.sqrt(np.maximum(new, 0.0) / old)

@@ -8,6 +8,8 @@ from hypothesis import given, settings, strategies
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from tracking_core.association import Associator, ASSOCIATORS, clusters, jpda, nearest, pda
 from tracking_core.batches import Floats, Ints
@@ -151,6 +153,25 @@ def test_nearest_gives_the_loser_its_next_best_plot() -> None:
     result = nearest(track, plot, np.array([3.0, 1.0, 4.0, 0.0]), np.full(3, -1.0), 2)
     assert_array_equal(result.probability, [0.0, 1.0, 1.0, 0.0])
     assert_array_equal(result.miss, [0.0, 0.0, 1.0])
+
+
+@pytest.mark.parametrize('seed', range(5))
+def test_clusters_are_connected_components(seed: int) -> None:
+    """Oracle: scipy. Chains in random order of tracks, cut here and there."""
+    rng = np.random.default_rng(seed)
+    T = 300
+    order, plots = rng.permutation(T), rng.permutation(T)
+    track, plot = np.repeat(order, 2)[:-1], np.repeat(plots, 2)[1:]  # each shares its neighbour's
+    kept = rng.random(len(track)) < 0.9
+    by_track = np.lexsort((plot[kept], track[kept]))
+    track, plot = track[kept][by_track], plot[kept][by_track]
+    links = coo_array((np.ones(len(track)), (track, T + plot)), shape=(2 * T, 2 * T))
+    expected = connected_components(links, directed=False)[1][:T]
+    label, pair_label = clusters(track, plot, T, T)
+    first = np.unique(label, return_index=True)[1]
+    assert_array_equal(first, np.sort(first))  # numbered by their first tracks, without a gap
+    assert_array_equal(label[:, None] == label, expected[:, None] == expected)
+    assert_array_equal(pair_label, label[track])
 
 
 def test_clusters_follow_shared_plots_only() -> None:

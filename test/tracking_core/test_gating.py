@@ -4,17 +4,17 @@
 
 from __future__ import annotations
 
-from hypothesis import given, settings, strategies
+from hypothesis import example, given, settings, strategies
 import numpy as np
 from numpy.testing import assert_array_equal
 
-from tracking_core.gating import box_pairs
+from tracking_core.gating import box_pairs, sector_pairs
 
 
 def brute_force(centre, half_size, plots):
     """Look at every track with every plot."""
-    gap = np.abs(plots[None, :, :2] - centre[:, None, :2])
-    return np.nonzero((gap <= half_size[:, None, :2]).all(axis=2))
+    gap = np.abs(plots[None] - centre[:, None])
+    return np.nonzero((gap <= half_size[:, None]).all(axis=2))
 
 
 @settings(deadline=None, max_examples=200)
@@ -26,6 +26,7 @@ def brute_force(centre, half_size, plots):
     size=strategies.sampled_from([0.0, 0.01, 1.0, 30.0, 1e4]),
     grid=strategies.booleans(),
 )
+@example(seed=61, tracks=3, plots=45, dimensions=2, size=1e4, grid=False)  # the rightmost plot
 def test_box_pairs_equals_brute_force(seed, tracks, plots, dimensions, size, grid) -> None:
     """Any sizes, boxes from points to everything, also with plots on common lines."""
     rng = np.random.default_rng(seed)
@@ -57,3 +58,17 @@ def test_box_pairs_finds_what_a_million_candidates_hide() -> None:
     assert len(found[0]) > 500
     for ours, expected in zip(found, brute_force(centre, half_size, plots), strict=True):
         assert_array_equal(ours, expected)
+
+
+def test_sector_pairs_equal_a_comparison_of_all() -> None:
+    """Angles given with any number of turns, sectors up to all round, NaN is in none."""
+    rng = np.random.default_rng(3)
+    centre, half = rng.uniform(-9.0, 9.0, (60, 1)), rng.exponential(0.5, (60, 1))
+    plots = rng.uniform(-9.0, 9.0, (80, 1))
+    plots[7] = np.nan
+    half[3] = 10.0
+    apart = np.abs((plots[None, :, 0] - centre[:, None, 0] + np.pi) % (2.0 * np.pi) - np.pi)
+    expected = np.argwhere(apart <= half)
+    assert_array_equal(np.stack(sector_pairs(centre, half, plots), axis=1), expected)
+    assert len(sector_pairs(centre[:0], half[:0], plots)[0]) == 0
+    assert len(sector_pairs(centre, half, plots[:0])[0]) == 0

@@ -7,8 +7,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 import pytest
+from scipy.stats import multivariate_normal
 
 from tracking_core.batches import Seeds
+from tracking_core.birth import with_speed_prior
 from tracking_core.composition import Density
 from tracking_core.initiation import one_point, plane_start, two_point
 from tracking_core.lifecycle_config import InitiationConfig
@@ -89,12 +91,14 @@ def test_two_point_existence_equals_bayes() -> None:
     old = plots(0.0, [[0.0, 0.0]], free=0.8)
     new = plots(4.0, [[100.0, 0.0], [0.0, 500.0], [-900.0, 0.0]])
     starts = start(old, new, density)
-    volume = np.pi * (300.0 * 4.0 + np.sqrt(400.0 * 1.3)) ** 2
-    # A contact's next plot is anywhere within reach; other plots have their density.
+    # A contact's velocity is Gaussian with the variance of an even one on the disc of the limit.
+    spread = 2.0 * old.covariance[0] + 300.0**2 / 4.0 * 4.0**2 * np.eye(2)
+    second = multivariate_normal(np.zeros(2), spread).pdf(new.position)
     contact = 0.8 * 0.25
-    weights = np.array([contact * 0.9 / volume / 4e-7] * 3 + [contact * 0.1, 1.0 - contact])
+    weights = np.array([*(contact * 0.9 * second / 4e-7), contact * 0.1, 1.0 - contact])
     assert_array_equal(starts.plot, [0, 1, 2])
-    assert_allclose(starts.existence_probability, (weights / weights.sum())[:3], rtol=1e-12)
+    # One plot's evidence moves the expected share of new contacts by less than 1 in 200.
+    assert_allclose(starts.existence_probability, (weights / weights.sum())[:3], rtol=5e-3)
 
 
 def test_two_point_counts_the_looks_between() -> None:
@@ -125,16 +129,29 @@ def test_two_point_takes_nothing() -> None:
 
 
 def test_one_point_starts_at_rest_with_a_velocity_prior() -> None:
-    """Covariance R and speed_max^2 / 3, climb_max^2 / 3, nothing across."""
+    """Covariance R, speed_max^2 / 4 on a disc, climb_max^2 / 3 on a line, nothing across."""
     fresh = plots(0.0, [[10.0, 20.0, 30.0], [0.0, 0.0, 0.0]], free=0.5)
     starts = one_point(fresh, 0.4, LIMITS)
     mean, P = plane_start(starts, (0, 1))
     assert_allclose(mean[0], [10.0, 0.0, 20.0, 0.0])
     expected = np.zeros((4, 4))
     expected[0::2, 0::2] = fresh.covariance[0, :2, :2]
-    expected[1::2, 1::2] = np.diag([30_000.0, 30_000.0])
+    expected[1::2, 1::2] = np.diag([22_500.0, 22_500.0])
     assert_allclose(P[0], expected)
     _, vertical = plane_start(starts, (2,))
     assert vertical[0, 1, 1] == pytest.approx(400.0 / 3.0)
     assert_allclose(starts.existence_probability, [0.2, 0.2])
     assert starts.hits == 1
+
+
+def test_with_speed_prior_equals_a_measurement_of_no_speed() -> None:
+    """Means and covariances as of a Kalman update with v = 0, sd as said; 0 changes nothing."""
+    old, new = plots(0.0, [[0.0, 0.0]]), plots(4.0, [[100.0, 300.0]])
+    starts = start(old, new, Density(1e-12, 1e-12))
+    P, x = starts.covariance[0].reshape(4, 4), starts.mean[0].reshape(4)
+    H = np.eye(4)[[1, 3]]
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + 25.0 * np.eye(2))
+    tamed = with_speed_prior(starts, 5.0)
+    assert_allclose(tamed.mean[0].reshape(4), x - K @ H @ x, rtol=1e-9)
+    assert_allclose(tamed.covariance[0].reshape(4, 4), P - K @ H @ P, rtol=1e-9, atol=1e-9)
+    assert with_speed_prior(starts, 0.0) is starts

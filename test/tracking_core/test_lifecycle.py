@@ -20,7 +20,7 @@ from tracking_core.lifecycle import (
     LIFECYCLES,
     MOfN,
 )
-from tracking_core.lifecycle_config import ExistenceConfig, MOfNConfig
+from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
 
 
 def make_tracks(count: int) -> Tracks:
@@ -40,6 +40,7 @@ def make_tracks(count: int) -> Tracks:
         gate_volume=zero,
         nis=zero,
         doubled=np.zeros(len(zero), np.int64),
+        level=zero,
     )
 
 
@@ -148,6 +149,11 @@ def test_has_left_waits_for_some_misses() -> None:
 @pytest.mark.parametrize('name', LIFECYCLES)
 def test_judge_takes_no_tracks(name: str) -> None:
     """Empty batches are legal."""
-    lifecycle = LIFECYCLES[name]({'existence': ExistenceConfig(), 'm_of_n': MOfNConfig()}[name])
+    configs = {
+        'existence': ExistenceConfig(),
+        'm_of_n': MOfNConfig(),
+        'error_ratio': ErrorRatioConfig(),
+    }
+    lifecycle = LIFECYCLES[name](configs[name])
     confirmed, ended = lifecycle.judge(make_tracks(0), np.zeros(0))
     assert len(confirmed) == len(ended) == len(lifecycle.prior(make_tracks(0), np.zeros(0))) == 0

@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.testing import assert_array_equal
 import pytest
 
 from tracking_core.batches import Mixture, Tracks
-from tracking_core.merging import duplicates
+from tracking_core.lifecycle_config import MergeConfig
+from tracking_core.merging import duplicates, end_doubles
 from tracking_core.rows import take
 
 
@@ -37,6 +40,7 @@ def make_tracks(state, sd=20.0, time=0.0, confirmed=False, hits=5) -> Tracks:
         gate_volume=zero,
         nis=zero,
         doubled=np.zeros(len(zero), np.int64),
+        level=zero,
     )
 
 
@@ -61,11 +65,11 @@ def test_duplicates_keep_the_surer_track(better, lost) -> None:
 
 
 def test_duplicates_compare_at_the_same_time() -> None:
-    """A track that was seen two seconds later is two seconds further on."""
-    tracks = make_tracks([[0, 100, 0, 0], [200, 100, 0, 0]], time=[0.0, 2.0])
-    assert_array_equal(duplicates(tracks, 1.0), [False, False])
-    near = make_tracks([[0, 10, 0, 0], [20, 10, 0, 0]], time=[0.0, 2.0])
-    assert_array_equal(duplicates(near, 1.0), [False, True])
+    """At one place two seconds apart is 200 m apart; a little further on is the same contact."""
+    behind = make_tracks([[0, 100, 0, 0], [0, 100, 0, 0]], time=[0.0, 2.0])
+    assert_array_equal(duplicates(behind, 1.0), [False, False])
+    same = make_tracks([[0, 25, 0, 0], [50, 25, 0, 0]], time=[0.0, 2.0])
+    assert_array_equal(duplicates(same, 1.0), [False, True])
 
 
 def test_duplicates_need_equal_velocities() -> None:
@@ -89,3 +93,36 @@ def test_duplicates_do_not_mind_the_order(order: list[int]) -> None:
     assert_array_equal(
         duplicates(take(tracks, np.array(order)), 1.0), np.array([False, True])[order]
     )
+
+
+def looks_until_gone(tracks: Tracks, passed: list[bool]) -> int:
+    """Return after how many looks a double goes, 99 for never."""
+    for look, is_passed in enumerate(passed, start=1):
+        tracks, ended = end_doubles(tracks, np.full(2, is_passed), MergeConfig(looks=3))
+        if ended.any():
+            assert_array_equal(ended, [False, True])
+            return look
+    return 99
+
+
+def test_end_doubles_waits_for_confirmed_ones() -> None:
+    """A tentative double goes at once, a confirmed one after three looks in a row."""
+    states = [[0, 10, 0, 0], [3, 10, 0, 0]]
+    tentative = make_tracks(states, confirmed=[True, False])
+    assert looks_until_gone(tentative, [True]) == 1
+    both = make_tracks(states, confirmed=True)
+    assert looks_until_gone(both, [True] * 5) == 3
+    assert looks_until_gone(both, [True, False, False, True, True]) == 5
+
+
+def test_end_doubles_forgets_those_that_part() -> None:
+    """Contacts that cross are apart again before three looks, and the count starts anew."""
+    near = make_tracks([[0, 10, 0, 0], [3, 10, 0, 0]], confirmed=True)
+    apart = make_tracks([[0, 10, 0, 0], [900, 10, 0, 0]], confirmed=True)
+    config, passed = MergeConfig(looks=3), np.ones(2, bool)
+    for _ in range(2):
+        near, ended = end_doubles(near, passed, config)
+        assert not ended.any()
+    parted, _ = end_doubles(replace(apart, doubled=near.doubled), passed, config)
+    assert_array_equal(near.doubled, [0, 2])
+    assert_array_equal(parted.doubled, [0, 0])

@@ -10,11 +10,12 @@ import pytest
 from scipy.linalg import expm
 
 from tracking_core.mode_chain import ModeChain
-from tracking_core.motion import ConstantVelocity, CoordinatedTurn, MOTION, Motion
+from tracking_core.motion import ConstantVelocity, CoordinatedTurn, MOTION, Motion, RandomWalk
 
 EXAMPLES = {
     'constant_velocity': [ConstantVelocity(2.0), ConstantVelocity(0.5, axes=1)],
     'coordinated_turn': [CoordinatedTurn(0.05, 2.0), CoordinatedTurn(-0.3, 1.0)],
+    'random_walk': [RandomWalk(1e-3, 1e-4)],
 }
 every_motion = pytest.mark.parametrize(
     'motion', [m for name in MOTION for m in EXAMPLES[name]], ids=repr

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
-from tracking_core.platform import Platform, StalePlatform
+from tracking_core.platform import Platform, PlatformPose, StalePlatform
 
 
 def sample(time, x=0.0, yaw=0.0, speed=10.0):
@@ -44,6 +44,14 @@ def test_position_is_linear_and_orientation_turns_evenly_between_samples():
     np.testing.assert_allclose(pose.position.T, expected)
     off = Rotation.from_quat(pose.orientation).inv() * Slerp(time, turns)(times)
     np.testing.assert_allclose(off.magnitude(), 0.0, atol=1e-9)
+
+
+def test_rotation_turns_platform_axes_to_tracking_axes():
+    """Oracle: scipy's Rotation; heading alone is a turn about the vertical."""
+    turns = Rotation.random(10, random_state=3)
+    nothing = np.zeros((10, 3))
+    pose = PlatformPose(nothing, turns.as_quat(), nothing, np.zeros((10, 3, 3)), np.zeros(10))
+    np.testing.assert_allclose(pose.rotation, turns.as_matrix(), atol=1e-12)
 
 
 def test_platform_goes_on_beyond_its_samples_for_a_while():

@@ -233,15 +233,17 @@ def test_max_tracks_refuses_and_reports() -> None:
 def test_duplicates_are_merged() -> None:
     """A second track on a contact goes, its id is reported, the old one stays."""
     plots = scene(4, 20, detection_probability=1.0)
-    tracker = followed(plots[:12])
+    tracker = followed(plots[:12], merge__looks=1, merge__distance=1.0)
     first = tracker.tracks
     place = first.planes[0].moments()[0][0, 0::2]
     double = tracker.start_track(place, float(first.time[0]))
-    merged = []
+    merged, count = [], 0
     for message in plots[12:]:
         tracker.track(message)
         merged += tracker.state.report.deleted.tolist()
+        count += tracker.state.report.merged
     assert merged == [double]
+    assert count == 1
     assert_array_equal(tracker.tracks.id, first.id)
 
 

@@ -12,8 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from tracking_core.batches import Bools, Floats, Ints
 
@@ -39,14 +37,22 @@ def clusters(track: Ints, plot: Ints, tracks: int, plots: int) -> tuple[Ints, In
     shared = contested(plot, plots)
     if not shared.any():
         return np.arange(tracks), track
-    rows, columns = track[shared], plot[shared]
-    ends = np.zeros(tracks + plots + 1, np.int32)
-    ends[1 : tracks + 1] = np.cumsum(np.bincount(rows, minlength=tracks))
-    ends[tracks + 1 :] = len(rows)
-    links = (np.ones(len(rows)), (tracks + columns).astype(np.int32), ends)
-    graph = csr_array(links, shape=(tracks + plots, tracks + plots))
-    label = connected_components(graph, directed=False)[1][:tracks].astype(np.int64)
+    first = _first_of_linked(track[shared], plot[shared], tracks, plots)
+    label = renumber(first, tracks)[1]
     return label, label[track]
+
+
+def _first_of_linked(track: Ints, plot: Ints, tracks: int, plots: int) -> Ints:
+    """Return the first of all tracks that each one (T,) is linked with, over any way."""
+    first = np.arange(tracks)
+    while True:
+        here, at_plot, better = first[track], np.full(plots, tracks), np.arange(tracks)
+        np.minimum.at(at_plot, plot, here)
+        if np.array_equal(here, at_plot[plot]):
+            return first
+        np.minimum.at(better, here, at_plot[plot])  # whole groups move to the first of another
+        while not np.array_equal(first, better[first]):
+            first = better[first]
 
 
 def contested(plot: Ints, plots: int) -> Bools:
@@ -58,7 +64,7 @@ def renumber(values: Ints, size: int) -> tuple[Ints, Ints]:
     """Return the values that occur, ascending, and `values` as positions in those."""
     occurs = np.zeros(size, np.bool_)
     occurs[values] = True
-    return np.flatnonzero(occurs), (np.cumsum(occurs) - 1)[values]
+    return occurs.nonzero()[0], (occurs.cumsum() - 1)[values]
 
 
 @dataclass(frozen=True)

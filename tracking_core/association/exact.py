@@ -29,8 +29,15 @@ PADDING = 50_000  # additions that cost less than a batch of their own
 
 
 def marginalise(contest: Contest) -> Floats:
+    """Return the exact probability of each pair, (P,)."""
+    return marginalise_and_sum(contest)[0]
+
+
+def marginalise_and_sum(contest: Contest) -> tuple[Floats, Floats]:
     """
-    Return the exact probability of each pair, (P,).
+    Return the exact probability of each pair (P,), and of each cluster the log sum of its events.
+
+    The event that nobody is in a pair has weight 1.
 
     References
     ----------
@@ -38,12 +45,15 @@ def marginalise(contest: Contest) -> Floats:
 
     """
     layout = _lay_out(contest)
-    probability, safe = np.empty(len(contest.track)), np.ones(len(layout.rows), np.bool_)
+    clusters = len(layout.rows)
+    probability, log_sum = np.empty(len(contest.track)), np.empty(clusters)
+    safe = np.ones(clusters, np.bool_)
     for batch in _batches(layout, safe):
-        safe[batch] = _solve(layout, batch, LINEAR, probability)
-    for batch in _batches(layout, ~safe):
-        _solve(layout, batch, LOGARITHMIC, probability)
-    return probability
+        safe[batch] = _solve(layout, batch, LINEAR, probability, log_sum)
+    if not safe.all():
+        for batch in _batches(layout, ~safe):
+            _solve(layout, batch, LOGARITHMIC, probability, log_sum)
+    return probability, log_sum + layout.log_scale
 
 
 @dataclass(frozen=True)
@@ -58,6 +68,7 @@ class _Layout:
     upright: Bools  # (P,) rows are tracks, not plots
     log_weight: Floats  # (P,) scaled so that it and `log_free` are at most 0
     log_free: Floats  # (P,) of the track in no pair
+    log_scale: Floats  # (clusters,) that was taken out of the sum of all events
 
 
 def _lay_out(contest: Contest) -> _Layout:
@@ -77,6 +88,7 @@ def _lay_out(contest: Contest) -> _Layout:
         upright=upright,
         log_weight=contest.gain - top[contest.track],
         log_free=-top[contest.track],
+        log_scale=np.asarray(np.bincount(track_cluster, top, len(tracks)), np.float64),
     )
 
 
@@ -92,7 +104,7 @@ def _batches(layout: _Layout, wanted: Bools) -> Iterator[Ints]:
     """Yield clusters of alike rows and columns, few enough to fit into memory."""
     batch, rows, columns = np.flatnonzero(wanted)[:0], 0, 0
     kind = np.where(wanted, 64 * layout.rows + np.frexp(layout.columns)[1], -1)
-    for alike in np.unique(kind[wanted])[::-1]:
+    for alike in sorted(set(kind[wanted].tolist()), reverse=True):
         more = np.flatnonzero(kind == alike)
         if rows * columns * len(more) << rows > PADDING:
             yield from _split(batch, rows, columns)
@@ -109,8 +121,10 @@ def _split(batch: Ints, rows: int, columns: int) -> list[Ints]:
     return np.split(batch, range(size, len(batch), size))
 
 
-def _solve(layout: _Layout, batch: Ints, arithmetic: Arithmetic, probability: Floats) -> Bools:
-    """Write the probabilities of the batch; return which of its clusters had a safe sum."""
+def _solve(
+    layout: _Layout, batch: Ints, arithmetic: Arithmetic, probability: Floats, log_sum: Floats
+) -> Bools:
+    """Write probabilities and sums of the batch; return which of its clusters had a safe sum."""
     place = np.full(len(layout.rows), -1)
     place[batch] = np.arange(len(batch))
     pairs = np.flatnonzero(place[layout.cluster] >= 0)
@@ -127,4 +141,5 @@ def _solve(layout: _Layout, batch: Ints, arithmetic: Arithmetic, probability: Fl
     free_column[column, cluster] = np.where(layout.upright[pairs], arithmetic.one, free)
     having, total = sum_events(weight, free_row, free_column, arithmetic)
     probability[pairs] = arithmetic.share(having[row, column, cluster], total[cluster])
+    log_sum[batch] = arithmetic.to_log(total)
     return np.asarray(total > SAFE_SUM)

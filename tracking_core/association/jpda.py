@@ -92,6 +92,8 @@ def _settle(contest: Contest, largest: int) -> tuple[Floats, Bools]:
     probability = np.empty(len(contest.track))
     for solve, chosen in ((_duel, two), (marginalise, ~two & ~large), (propagate, large)):
         pairs = chosen[contest.cluster]
+        if pairs.all():
+            return solve(contest), large[track_cluster]
         if pairs.any():
             probability[pairs] = solve(contest.take(pairs))
     return probability, large[track_cluster]

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Floats, Ints
+from tracking_core.linalg import first_rows
 
 LOG_2 = np.log(2.0)
 
@@ -37,7 +38,7 @@ def choose(track: Ints, gain: Floats, tracks: int) -> tuple[Floats, Floats, Floa
     """
     top = np.zeros(tracks)
     if len(track):
-        starts = np.flatnonzero(np.diff(track, prepend=-1))
+        starts = first_rows(track)
         top[track[starts]] = np.maximum(np.maximum.reduceat(gain, starts), 0.0)
     weight, miss = np.exp(gain - top[track]), np.exp(-top)
     total = miss + np.bincount(track, weight, tracks)

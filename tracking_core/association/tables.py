@@ -32,6 +32,7 @@ class Arithmetic:
     zero: float
     one: float
     of_log: Callable[[Floats], Floats]
+    to_log: Callable[[Floats], Floats]
     share: Callable[[Floats, Floats], Floats]  # part of a sum and the sum, to probability
 
 
@@ -39,12 +40,16 @@ def _share(part: Floats, total: Floats) -> Floats:
     return part / np.maximum(total, SAFE_SUM)
 
 
+def _safe_log(total: Floats) -> Floats:
+    return np.asarray(np.log(np.maximum(total, SAFE_SUM)))
+
+
 def _log_share(part: Floats, total: Floats) -> Floats:
     return np.asarray(np.exp(part - total))
 
 
-LINEAR = Arithmetic(np.add, np.multiply, 0.0, 1.0, np.exp, _share)
-LOGARITHMIC = Arithmetic(np.logaddexp, np.add, -np.inf, 0.0, np.positive, _log_share)
+LINEAR = Arithmetic(np.add, np.multiply, 0.0, 1.0, np.exp, _safe_log, _share)
+LOGARITHMIC = Arithmetic(np.logaddexp, np.add, -np.inf, 0.0, np.positive, np.positive, _log_share)
 
 
 def sum_events(
@@ -101,9 +106,10 @@ def _idle(free_row: Floats, arithmetic: Arithmetic) -> Floats:
 def _fill(tables: Floats, weight: Floats, free_column: Floats, arithmetic: Arithmetic) -> None:
     """Compute table k + 1 from table k: column k stays free or takes one of the free rows."""
     halves = [_split(tables, row) for row in range(len(weight))]
+    ends = [(half[:, :, 0], half[:, :, 1]) for half in halves]
     used = np.any(weight > arithmetic.zero, axis=2)
     for k, free in enumerate(free_column):
         arithmetic.multiply(tables[k], free, out=tables[k + 1])
         for row in np.flatnonzero(used[:, k]):
-            without, having = halves[row][k, :, 0], halves[row][k + 1, :, 1]
+            without, having = ends[row][0][k], ends[row][1][k + 1]
             arithmetic.add(having, arithmetic.multiply(without, weight[row, k]), out=having)

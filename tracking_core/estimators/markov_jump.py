@@ -10,8 +10,8 @@ import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
 from tracking_core.kalman import condition, innovate, kalman_gain
-from tracking_core.linalg import symmetrise
-from tracking_core.mode_chain import ModeChain
+from tracking_core.linalg import over_modes, symmetrise
+from tracking_core.mode_chain import Chain
 from tracking_core.motion import Motion
 
 _LEAST_WEIGHT = 1e-300  # a mode that cannot be reached has no weight, and no 0/0
@@ -29,7 +29,7 @@ class MarkovJump:
     """
 
     motions: tuple[Motion, ...]  # one per mode, the quiet mode first
-    chain: ModeChain
+    chain: Chain
     initial_probability: tuple[float, ...] = ()  # of the modes; empty: the chain's stationary
 
     def __post_init__(self) -> None:
@@ -58,7 +58,7 @@ class MarkovJump:
     def predict(self, mixture: Mixture, dt: Floats) -> Mixture:
         """Mix the modes and move them over the times dt (T,) [s] (eq. 18 to 21)."""
         mixed = mix(mixture, self.chain.transition_probability(dt))
-        F, Q = self._dynamics(dt)
+        F, Q = self._dynamics(dt, mixture.mean.shape[2])
         mean = (F @ mixed.mean[..., None])[..., 0]
         covariance = symmetrise(F @ mixed.covariance @ np.swapaxes(F, -1, -2) + Q)
         return Mixture(mean, covariance, mixed.mode_probability, mixture.memory)
@@ -73,10 +73,11 @@ class MarkovJump:
         """Update modes and mode probabilities (eq. 22 to 24)."""
         return condition(mixture, track, innovations, association, kalman_gain(innovations))
 
-    def _dynamics(self, dt: Floats) -> tuple[Floats, Floats]:
-        F = np.stack([motion.transition(dt) for motion in self.motions], axis=1)
-        Q = np.stack([motion.process_noise(dt) for motion in self.motions], axis=1)
-        return F, Q  # (T, J, n, n) each
+    def _dynamics(self, dt: Floats, n: int) -> tuple[Floats, Floats]:
+        F, Q = np.empty((2, len(dt), len(self.motions), n, n))
+        for mode, motion in enumerate(self.motions):
+            F[:, mode], Q[:, mode] = motion.transition(dt), motion.process_noise(dt)
+        return F, Q
 
 
 def mix(mixture: Mixture, transition_probability: Floats) -> Mixture:
@@ -105,11 +106,11 @@ def mix(mixture: Mixture, transition_probability: Floats) -> Mixture:
     """
     T, J, n = mixture.mean.shape
     joint = mixture.mode_probability[:, :, None] * transition_probability  # (T, i, j)
-    predicted = joint.sum(axis=1)
+    predicted = over_modes(np.add, joint)
     weight = np.swapaxes(joint / np.maximum(predicted, _LEAST_WEIGHT)[:, None], 1, 2)  # (T, j, i)
     offset = mixture.mean - mixture.mean[:, :1]  # small numbers: no cancellation below
     mean = weight @ offset
-    square = mixture.covariance + offset[..., :, None] * offset[..., None, :]
+    square = mixture.covariance + np.einsum('tjn,tjm->tjnm', offset, offset)
     covariance = (weight @ square.reshape(T, J, n * n)).reshape(T, J, n, n)
-    covariance -= mean[..., :, None] * mean[..., None, :]
+    covariance -= np.einsum('tjn,tjm->tjnm', mean, mean)
     return Mixture(mixture.mean[:, :1] + mean, covariance, predicted, mixture.memory)

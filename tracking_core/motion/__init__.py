@@ -9,8 +9,9 @@ from typing import Protocol
 from tracking_core.batches import Floats
 from tracking_core.motion.constant_velocity import ConstantVelocity
 from tracking_core.motion.coordinated_turn import CoordinatedTurn
+from tracking_core.motion.random_walk import RandomWalk
 
-__all__ = ['MOTION', 'ConstantVelocity', 'CoordinatedTurn', 'Motion']
+__all__ = ['MOTION', 'ConstantVelocity', 'CoordinatedTurn', 'Motion', 'RandomWalk']
 
 
 class Motion(Protocol):
@@ -30,4 +31,8 @@ class Motion(Protocol):
         ...
 
 
-MOTION = {'constant_velocity': ConstantVelocity, 'coordinated_turn': CoordinatedTurn}
+MOTION = {
+    'constant_velocity': ConstantVelocity,
+    'coordinated_turn': CoordinatedTurn,
+    'random_walk': RandomWalk,
+}

@@ -27,10 +27,10 @@ class ConstantVelocity:
 
     def transition(self, dt: Floats) -> Floats:
         """Return F (T, n, n) over the times dt (T,) [s]."""
-        position, velocity = _places(self.axes)
         matrix = np.zeros((len(dt), 2 * self.axes, 2 * self.axes))
-        matrix[:, position, position] = matrix[:, velocity, velocity] = 1.0
-        matrix[:, position, velocity] = dt[:, None]
+        for place in range(0, 2 * self.axes, 2):
+            matrix[:, place, place] = matrix[:, place + 1, place + 1] = 1.0
+            matrix[:, place, place + 1] = dt
         return matrix
 
     def process_noise(self, dt: Floats) -> Floats:
@@ -40,17 +40,11 @@ class ConstantVelocity:
 
 def white_acceleration_noise(dt: Floats, acceleration_sd: float, axes: int) -> Floats:
     """Return G G^T (T, n, n), G = acceleration_sd (dt^2/2, dt) on each axis, dt (T,) [s]."""
-    position, velocity = _places(axes)
-    to_position = (acceleration_sd * 0.5 * dt * dt)[:, None]
-    to_velocity = (acceleration_sd * dt)[:, None]
-    matrix = np.zeros((len(dt), 2 * axes, 2 * axes))
-    matrix[:, position, position] = to_position**2
-    matrix[:, velocity, velocity] = to_velocity**2
+    to_position, to_velocity = acceleration_sd * 0.5 * dt * dt, acceleration_sd * dt
     cross = to_position * to_velocity
-    matrix[:, position, velocity] = matrix[:, velocity, position] = cross
+    matrix = np.zeros((len(dt), 2 * axes, 2 * axes))
+    for place in range(0, 2 * axes, 2):
+        matrix[:, place, place] = to_position**2
+        matrix[:, place + 1, place + 1] = to_velocity**2
+        matrix[:, place, place + 1] = matrix[:, place + 1, place] = cross
     return matrix
-
-
-def _places(axes: int) -> tuple[Floats, Floats]:
-    axis = np.arange(axes)
-    return 2 * axis, 2 * axis + 1  # type: ignore[return-value]

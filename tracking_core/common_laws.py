@@ -1,0 +1,158 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which set of tracks may have made which plot, and by which law?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracking_core.batches import Floats, Ints, Scan
+from tracking_core.common_plots import Common, Sets
+from tracking_core.composition import Setup
+from tracking_core.gating import box_pairs, sector_pairs
+from tracking_core.grouping import Groups
+from tracking_core.linalg import inverse, nearest_turn
+from tracking_core.pairing import thresholds
+from tracking_core.prediction import longest_lag, Predicted
+from tracking_core.resolution import Places, Resolution
+
+
+@dataclass(frozen=True)
+class Laws:
+    """
+    Laws by which sets of tracks may have made plots: Q pairs of a set and a plot, R rows.
+
+    A row is a track and a law: the plot is of all (`share` below 1), or of this track alone.
+    """
+
+    set: Ints  # (Q,)
+    plot: Ints  # (Q,)
+    log_likelihood: Floats  # (Q,) of all laws together
+    pair: Ints  # (R,)
+    member: Ints  # (R,) row of the groups' members
+    share: Floats  # (R,) of the track in the plot
+    expected: Floats  # (R, d) plot
+    noise: Floats  # (R, d, d) beside that of plot and track
+    part: Floats  # (R,) chance of the law, given the pair; twice for a law of two tracks
+    alone: Ints  # (R,) 1: the track has drowned the others
+
+
+def candidates(
+    places: Places,
+    sets: Sets,
+    groups: Groups,
+    passed: Predicted,
+    scan: Scan,
+    setup: Setup,
+    resolution: Resolution,
+) -> tuple[Ints, Ints, Floats]:
+    """Return sets, plots and lags where a plot is in a box about the gates of all laws."""
+    bound = _bound(scan, setup)
+    leader = groups.member[sets.start]
+    lag_max = longest_lag(passed, scan)[leader]
+    noise = setup.sensor.noise(places.mean, scan.coverage)
+    own = np.sqrt(bound * np.einsum('tdd->td', places.covariance + noise))[groups.member]
+    blur = sets.covariance + resolution.spread * sets.spread + noise[leader]
+    half = np.sqrt(bound * np.einsum('bdd->bd', blur))
+    low = np.minimum(np.minimum.reduceat(sets.place - own, sets.start), sets.mean - half)
+    high = np.maximum(np.maximum.reduceat(sets.place + own, sets.start), sets.mean + half)
+    reach = 0.5 * (high - low) + np.abs(sets.velocity) * lag_max[:, None]
+    find = sector_pairs if setup.sensor.is_angular else box_pairs
+    row, plot = find(0.5 * (low + high), reach, scan.position)
+    lag = scan.time[plot] - passed.time[leader[row]]
+    fits = np.isfinite(scan.position[plot]).all(axis=1) & (np.abs(lag) <= lag_max[row] + 1e-9)
+    return row[fits], plot[fits], lag[fits]
+
+
+def compare(
+    places: Places,
+    sets: Sets,
+    groups: Groups,
+    scan: Scan,
+    setup: Setup,
+    resolution: Resolution,
+    found: tuple[Ints, Ints, Floats],
+) -> Laws:
+    """Weigh the laws by which each set may have made the plots `found`: sets, plots, lags."""
+    bound = _bound(scan, setup)
+    row, plot, lag = found
+    z = near(scan.position[plot], sets.mean[row], setup)
+    R = scan.covariance[plot]
+    blur = sets.covariance + resolution.spread * sets.spread
+    mean = sets.mean[row] + sets.velocity[row] * lag[:, None]
+    of_all = _log_gaussian(z - mean, blur[row] + R, bound) + np.log1p(-resolution.capture)
+
+    pair = np.repeat(np.arange(len(row)), sets.size[row])
+    member = sets.start[row[pair]] + _rank(pair)
+    track, share = groups.member[member], sets.share[member]
+    own = sets.place[member] + places.velocity[track] * lag[pair, None]
+    of_one = _log_gaussian(z[pair] - own, places.covariance[track] + R[pair], bound)
+    of_one = of_one + np.log(resolution.capture * share)
+    top = of_all.copy()
+    np.maximum.at(top, pair, of_one)
+    heard = np.isfinite(top)
+    if not heard.all():  # no law has it: look again without these
+        rest = row[heard], plot[heard], lag[heard]
+        return compare(places, sets, groups, scan, setup, resolution, rest)
+    total = top + np.log(
+        np.exp(of_all - top) + np.bincount(pair, np.exp(of_one - top[pair]), len(top))
+    )
+    blurred = blur[row[pair]] - share[:, None, None] ** 2 * places.covariance[track]
+    return Laws(
+        row, plot, total,
+        pair=np.concatenate([pair, pair]),
+        member=np.concatenate([member, member]),
+        share=np.concatenate([share, np.ones(len(pair))]),
+        expected=np.concatenate([mean[pair], own]),
+        noise=np.concatenate([blurred, np.zeros_like(blurred)]),
+        part=np.exp(np.concatenate([of_all[pair], of_one]) - np.tile(total[pair], 2)),
+        alone=np.repeat([0, 1], len(pair)),
+    )  # fmt: skip
+
+
+def as_common(laws: Laws, sets: Sets, groups: Groups) -> Common:
+    """Return what the association must know of the laws."""
+    T = len(groups.existence_apart)
+    alone = laws.alone == 1
+    pair, part = laws.pair[alone], laws.part[alone]
+    drowned = np.bincount(pair, part, len(laws.set))[pair] - part
+    return Common(
+        partitions=groups.partitions,
+        existence_apart=groups.existence_apart,
+        size=np.concatenate([np.ones(T, np.int64), sets.size]),
+        unit=T + laws.set,
+        plot=laws.plot,
+        log_likelihood=laws.log_likelihood,
+        law_pair=laws.pair,
+        law_part=laws.part,
+        law_size=np.where(laws.alone == 1, 1, sets.size[laws.set[laws.pair]]),
+        hidden_pair=pair,
+        hidden_track=groups.member[laws.member[alone]],
+        hidden_part=drowned,
+    )
+
+
+def near(position: Floats, expected: Floats, setup: Setup) -> Floats:
+    """Return plots (P, d), those that are angles within half a turn of what is expected."""
+    return nearest_turn(position, expected) if setup.sensor.is_angular else position
+
+
+def _bound(scan: Scan, setup: Setup) -> float:
+    d = scan.position.shape[1]
+    return float(thresholds(setup.gate_probability, d)[d])
+
+
+def _log_gaussian(nu: Floats, S: Floats, bound: float) -> Floats:
+    """Return the log density (P,), -inf outside the gate."""
+    inverted, determinant = inverse(S)
+    distance = np.einsum('pd,pde,pe->p', nu, inverted, nu)
+    log_density = -0.5 * (distance + np.log(determinant) + nu.shape[1] * np.log(2.0 * np.pi))
+    return np.where(distance <= bound, log_density, -np.inf)
+
+
+def _rank(pair: Ints) -> Ints:
+    """Return the place of each row among those of the same pair; `pair` ascends."""
+    start = np.flatnonzero(np.diff(pair, prepend=-1))
+    return np.arange(len(pair)) - start[pair]

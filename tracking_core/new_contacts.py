@@ -1,0 +1,75 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How likely are two unclaimed plots a new contact, rather than two strange plots?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracking_core.batches import Floats, Seeds
+from tracking_core.composition import Density
+from tracking_core.lifecycle_config import InitiationConfig
+from tracking_core.linalg import inverse
+
+MOST_NEW = 0.9  # share of the unclaimed plots that new contacts can have made
+_STEPS = 5  # of expectation and maximisation
+_TRUST = 200.0  # plots that the expected share of new contacts counts for
+
+
+def share_of_new(expected: float, evidence: Floats, free: Floats) -> float:
+    """
+    Return which share of the unclaimed plots new contacts made.
+
+    The expected share is what the parameters say of contacts that come one by one. After a start,
+    or when a whole formation appears, it is far too small, and the pairs themselves tell: a few
+    steps of expectation and maximisation, held back by the expectation for want of evidence.
+    """
+    share = expected
+    for _ in range(_STEPS):
+        prior = share * free
+        real = (prior * (1.0 + evidence) / (1.0 + prior * evidence)).clip(0.0, 1.0).sum()
+        share = min((_TRUST * expected + real) / (_TRUST + len(free)), MOST_NEW)
+    return share
+
+
+@dataclass(frozen=True)
+class Odds:
+    """How much likelier a second plot is when the first was a contact's than when it was not."""
+
+    density: Density
+    detection_probability: float
+    config: InitiationConfig
+
+    def of_pair(self, first: Seeds, second: Seeds, step: Floats, dt: Floats) -> Floats:
+        """
+        Return P_D p(second | first) over the density of other plots (K,).
+
+        The contact's velocity is taken as Gaussian with the variance that the speed limit gives;
+        `step` (K, d) [m] apart after `dt` (K,) [s].
+        """
+        d = step.shape[1]
+        spread = first.covariance + second.covariance
+        axis = np.arange(d)
+        spread[:, axis, axis] += velocity_variance(d, self.config) * dt[:, None] ** 2
+        inverted, determinant = inverse(spread)
+        distance = np.einsum('kd,kde,ke->k', step, inverted, step)
+        likelihood = np.exp(-0.5 * distance) / np.sqrt((2.0 * np.pi) ** d * determinant)
+        others = np.maximum(self.density.total * second.clutter_volume, 1e-300)
+        return np.asarray(self.detection_probability * second.free * likelihood / others)
+
+
+def velocity_variance(d: int, config: InitiationConfig) -> Floats:
+    """Return the variance of each coordinate (d,) of velocities even within the limits."""
+    variance = limits(d, config) ** 2 / 3.0  # on a line
+    if d > 1:
+        variance[:2] = config.speed_max**2 / 4.0  # on a disc
+    if config.speed_sd > 0.0:
+        variance[:2] = np.minimum(variance[:2], config.speed_sd**2)
+    return variance
+
+
+def limits(d: int, config: InitiationConfig) -> Floats:
+    """Return the speed limit on each of d coordinates [m/s, sonar rad/s]."""
+    return np.array([config.speed_max] * min(d, 2) + [config.climb_max] * (d - 2))

@@ -1,0 +1,150 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which plots may belong to several tracks in common, and what do they say of each?
+
+A common plot is near the mean of its tracks by level, with the plot's noise and a part of their
+spread: then it is one more measurement of each of them, of its share of the mean, with what the
+others add as noise. Or one of them has drowned the others: then it is a plot of that one only,
+but the others were not missed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from tracking_core import measurement
+from tracking_core.batches import Floats, Innovations, Mixture, Pairs, Scan
+from tracking_core.common_laws import as_common, candidates, compare, Laws, near
+from tracking_core.common_plots import as_one, Common, places_of
+from tracking_core.composition import Plane, Setup
+from tracking_core.grouping import group_tracks, Groups, Links
+from tracking_core.kalman import mixture_log_likelihood
+from tracking_core.pairing import Gated
+from tracking_core.prediction import Predicted
+from tracking_core.resolution import interference, near_pairs, Places
+from tracking_core.rows import concatenate, put, take
+
+
+def add_common(
+    passed: Predicted, gated: Gated, scan: Scan, setup: Setup
+) -> tuple[Gated, Common | None]:
+    """
+    Add the common plots to the pairs of T tracks.
+
+    Parameters
+    ----------
+    passed : Predicted
+        The tracks.
+    gated : Gated
+        Pairs so far.
+    scan : Scan
+        M plots.
+    setup : Setup
+        Planes, sensor and its resolution.
+
+    Returns
+    -------
+    gated : Gated
+        With pairs for the tracks of every common plot, `common` their row in ...
+    common : Common or None
+        None if no two tracks are near enough, or if the sensor resolves everything.
+
+    """
+    resolution, angular = setup.resolution, setup.sensor.is_angular
+    if resolution is None or len(passed.time) < 2:
+        return gated, None
+    places = places_of(setup.planes, passed.planes, setup.sensor.dimensions)
+    first, second, chance = near_pairs(places, scan.coverage, resolution, angular)
+    # Only what is sure and in sight can hide something else: a doubtful track near a contact
+    # would live on its plots.
+    seen = passed.tracks.confirmed & (passed.detection > 0.0)
+    likely = seen[first] & seen[second]
+    if not likely.any():
+        return gated, None
+    links = Links(first[likely], second[likely], chance[likely])
+    groups = group_tracks(links, passed.existence_probability)
+    sets = as_one(places, groups, passed.tracks.level, angular)
+    found = candidates(places, sets, groups, passed, scan, setup, resolution)
+    laws = compare(places, sets, groups, scan, setup, resolution, found)
+    blur = interference(places, links, scan.coverage, resolution)
+    gated = _blur_own(gated, blur, passed, scan, setup)
+    rows = _measure(places, groups, laws, blur, passed, scan, setup)
+    both = concatenate(gated, rows)
+    order = np.lexsort((both.common, both.pairs.plot, both.pairs.track))
+    return take(both, order), as_common(laws, sets, groups)
+
+
+def _blur_own(gated: Gated, blur: Floats, passed: Predicted, scan: Scan, setup: Setup) -> Gated:
+    """Return the pairs with more noise where another contact pulls at the plot."""
+    pulled = np.flatnonzero((blur[gated.pairs.track] > 0.0).any(axis=(1, 2)))
+    if len(pulled) == 0:
+        return gated
+    pairs = take(gated.pairs, pulled)
+    R = scan.covariance[pairs.plot] + blur[pairs.track]
+    expected = passed.gates.centre[pairs.track]
+    part = _compare_again(
+        pairs, scan, near(scan.position[pairs.plot], expected, setup), np.ones(len(pulled)), R,
+        passed, setup,
+    )  # fmt: skip
+    return put(gated, pulled, replace(part, common=gated.common[pulled]))
+
+
+def _measure(
+    places: Places,
+    groups: Groups,
+    laws: Laws,
+    blur: Floats,
+    passed: Predicted,
+    scan: Scan,
+    setup: Setup,
+) -> Gated:
+    """Return what each law says of its track; `common` is the row of the laws."""
+    used = np.flatnonzero(laws.part > 0.0)
+    plot, track = laws.plot[laws.pair[used]], groups.member[laws.member[used]]
+    lag, share = scan.time[plot] - passed.time[track], laws.share[used]
+    z = near(scan.position[plot], laws.expected[used], setup)
+    own = places.mean[track] + places.velocity[track] * lag[:, None]
+    value = z - laws.expected[used] + share[:, None] * own
+    R = scan.covariance[plot] + laws.noise[used] + laws.alone[used, None, None] * blur[track]
+    rows = _compare_again(Pairs(track, plot, lag), scan, value, share, R, passed, setup)
+    return replace(rows, common=used)
+
+
+def _compare_again(
+    pairs: Pairs, scan: Scan, value: Floats, share: Floats, R: Floats, passed: Predicted,
+    setup: Setup,
+) -> Gated:  # fmt: skip
+    """Compare plots (P, d) with a share of the tracks, with noise R (P, d, d)."""
+    innovations = tuple(
+        _innovate(plane, mixture, pairs, scan, value, share, R)
+        for plane, mixture in zip(setup.planes, passed.planes, strict=True)
+    )
+    distance = np.sum([item.distance.min(axis=1) for item in innovations], axis=0)
+    likelihood = np.sum(
+        [
+            mixture_log_likelihood(mixture.mode_probability[pairs.track], item)
+            for mixture, item in zip(passed.planes, innovations, strict=True)
+        ],
+        axis=0,
+    )
+    return Gated(pairs, innovations, distance, likelihood, np.full(len(pairs), -1))
+
+
+def _innovate(
+    plane: Plane,
+    mixture: Mixture,
+    pairs: Pairs,
+    scan: Scan,
+    value: Floats,
+    share: Floats,
+    R: Floats,
+) -> Innovations:
+    at = np.array(plane.coordinates)
+    own = measurement.of_plane(plane.coordinates, pairs, scan)
+    part = measurement.without_absent(
+        value[:, at], share[:, None, None] * own.matrix, R[:, at[:, None], at]
+    )
+    return plane.estimator.innovate(mixture, pairs.track, part)
