@@ -18,6 +18,7 @@ from tracking_core.linalg import wrap_angle
 
 TWO_PI = 2.0 * np.pi
 _IN_STEP = 0.97  # mean resultant length of azimuth minus antenna; 1: every plot on the beam
+_ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
 _SAMPLES = 400  # plots remembered while learning
 _PERIODS = (0.4, 60.0)  # of antennas [s]
@@ -39,7 +40,9 @@ class Sweep:
 class Antenna:
     """Follows the rotation of one antenna from message to message."""
 
-    def __init__(self, period: float, full_turns: bool, time_reference: str) -> None:
+    def __init__(
+        self, period: float, full_turns: bool, time_reference: str, stares: bool = False
+    ) -> None:
         self._period = period  # [s], 0: to be learnt
         self._full_turns = full_turns
         self._reference = time_reference
@@ -49,7 +52,7 @@ class Antenna:
         self._end = np.nan
         self._interval = 0.0  # between messages [s]
         self._tries = 0
-        self._stares = False  # plots of one moment came from different directions
+        self._stares = stares  # told so, or plots of one moment came from different directions
 
     @property
     def rotation_rate(self) -> float:
@@ -106,15 +109,20 @@ class Antenna:
             self._stares |= bool(np.abs(np.exp(1j * azimuth).mean()) < _IN_STEP)
         if self._stares:
             return
-        self._time = np.concatenate([self._time, time])[-_SAMPLES:]
-        self._azimuth = np.concatenate([self._azimuth, azimuth])[-_SAMPLES:]
+        evenly = np.linspace(0, len(time) - 1, min(len(time), _SAMPLES // 2)).astype(np.int64)
+        self._time = np.concatenate([self._time, time[evenly]])[-_SAMPLES:]
+        self._azimuth = np.concatenate([self._azimuth, azimuth[evenly]])[-_SAMPLES:]
         span = np.ptp(self._time) if len(self._time) else 0.0
         if len(self._time) < _FEWEST or span <= 0.0:
             return
         if self._rate:
             self._refine()
-        elif self._is_worth_a_try():
+        elif (self._period or self._has_directions()) and self._is_worth_a_try():
             self._find(span)
+
+    def _has_directions(self) -> bool:
+        """Return whether plots came from all over; a lone contact fits many rates."""
+        return bool(np.abs(np.exp(1j * self._azimuth).mean()) < _ONE_DIRECTION)
 
     def _is_worth_a_try(self) -> bool:
         """Return whether to look for a rate: costly, so less and less often in vain."""
@@ -143,11 +151,12 @@ class Antenna:
 
     def _refine(self) -> None:
         """Fit the rate to the remembered plots; forget it when they are not on the beam."""
+        t = self._time - self._time.mean()
+        square = float(t @ t)
         for _ in range(3):
-            t = self._time - self._time.mean()
             beam = self._azimuth - self._rate * t
             off = wrap_angle(beam - np.angle(np.exp(1j * beam).sum()))
-            self._rate += float((t * off).sum() / (t * t).sum())
+            self._rate += float(t @ off) / square
         if self._in_step(np.array([self._rate]))[0] < _IN_STEP:
             self._rate = 0.0
             self._time, self._azimuth = self._time[-50:], self._azimuth[-50:]

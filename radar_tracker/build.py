@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 from radar_tracker.config import RadarTrackerConfig
-from radar_tracker.motion_config import MotionConfig
+from radar_tracker.planes import build_planes
 from radar_tracker.sensor import Radar
 from tracking_core.association import ASSOCIATORS
-from tracking_core.composition import Plane, Setup
-from tracking_core.estimators import ESTIMATORS
+from tracking_core.composition import Setup
 from tracking_core.lifecycle import Lifecycle, LIFECYCLES
-from tracking_core.mode_chain import ModeChain
-from tracking_core.motion import ConstantVelocity, CoordinatedTurn, Motion
+
+__all__ = ['build_planes', 'build_setup']
 
 _SECONDS_PER_HOUR = 3600.0
 _SOFT = ('jpda', 'pda')
@@ -34,27 +33,6 @@ def build_setup(config: RadarTrackerConfig, radar: Radar) -> Setup:
         least_existence=_START_SHARE * config.existence.drop,
         merge=config.merge,
         max_tracks=config.max_tracks,
-    )
-
-
-def build_planes(config: RadarTrackerConfig, dimensions: int) -> tuple[Plane, ...]:
-    """Return the horizontal plane and, for a 3-D radar, the vertical one [ZHUK09]."""
-    estimator = ESTIMATORS[config.estimator]
-    level, height = config.motion.horizontal, config.motion.vertical
-    horizontal = Plane(
-        estimator(_horizontal(config.motion), ModeChain(level.sojourn_time)), (0, 1)
-    )
-    if dimensions == 2:
-        return (horizontal,)
-    motions = tuple(ConstantVelocity(sd, axes=1) for sd in height.acceleration_sd)
-    return (horizontal, Plane(estimator(motions, ModeChain(height.sojourn_time)), (2,)))
-
-
-def _horizontal(motion: MotionConfig) -> tuple[Motion, ...]:
-    level = motion.horizontal
-    return tuple(
-        CoordinatedTurn(rate, sd) if rate else ConstantVelocity(sd)
-        for rate, sd in zip(level.turn_rate, level.acceleration_sd, strict=True)
     )
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from radar_tracker.estimator_config import AlphaBetaConfig, RADAR_ESTIMATORS
 from radar_tracker.motion_config import MotionConfig
 from tracking_core.association import ASSOCIATORS
 from tracking_core.config import parameter, validate
@@ -80,6 +81,8 @@ class SensorConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
+        if self.range_rate_sign == 0:
+            raise ValueError('SensorConfig.range_rate_sign must be 1 or -1, got 0')
         if self.range_min >= self.range_max:
             raise ValueError(
                 f'SensorConfig.range_min must be below range_max = {self.range_max}, '
@@ -92,8 +95,9 @@ class ScanConfig:
     """How messages become looks of the antenna."""
 
     assembly: str = parameter(
-        'message', unit='', choices=('message', 'sector', 'rotation'),
-        doc='a message is a full turn, a sector of one, or a sector to collect into full turns',
+        'message', unit='', choices=('message', 'sector', 'rotation', 'snapshot'),
+        doc='a message is a full turn, a sector of one, a sector to collect into full turns, '
+        'or a look everywhere at once',
     )  # fmt: skip
     time_reference: str = parameter(
         'start', unit='', choices=('start', 'middle', 'end'),
@@ -115,13 +119,14 @@ class RadarTrackerConfig:
     sensor: SensorConfig = field(default_factory=SensorConfig)
     scan: ScanConfig = field(default_factory=ScanConfig)
     motion: MotionConfig = field(default_factory=MotionConfig)
+    alpha_beta: AlphaBetaConfig = field(default_factory=AlphaBetaConfig)
     gate: GateConfig = field(default_factory=GateConfig)
     existence: ExistenceConfig = field(default_factory=ExistenceConfig)
     m_of_n: MOfNConfig = field(default_factory=MOfNConfig)
     initiation: InitiationConfig = field(default_factory=InitiationConfig)
     merge: MergeConfig = field(default_factory=MergeConfig)
     estimator: str = parameter(
-        'markov_jump', unit='', choices=('markov_jump',), doc='filter of every track'
+        'markov_jump', unit='', choices=RADAR_ESTIMATORS, doc='filter of every track'
     )
     output: str = parameter(
         'mmse', unit='', choices=('mmse', 'map'), live=True,
@@ -143,7 +148,7 @@ class RadarTrackerConfig:
         5000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000
     )
     max_plots: int = parameter(
-        20_000, unit='1', doc='rows used of one message', low=1, high=1_000_000
+        20_000, unit='1', doc='a message with more rows is refused', low=1, high=1_000_000
     )
 
     def __post_init__(self) -> None:

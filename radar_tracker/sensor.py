@@ -7,7 +7,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from radar_tracker.config import MountConfig, SensorConfig
 from radar_tracker.conversion import linearised, to_cartesian, to_polar
@@ -30,6 +29,11 @@ class Radar:
         height = plots.elevation if is_polar else plots.position[:, 2]
         dimensions = config.dimensions or (3 if np.isfinite(height).any() else 2)
         return Radar(config, dimensions, is_polar)
+
+    @property
+    def is_angular(self) -> bool:
+        """False: plots are points."""
+        return False
 
     @property
     def detection_probability(self) -> float:
@@ -60,6 +64,12 @@ class Radar:
         sd = np.broadcast_to([c.range_sd, c.azimuth_sd, c.elevation_sd][:d], offset.shape)
         return linearised(to_polar(offset), sd)[1]
 
+    def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
+        """Return plot space per m^d (T,) at positions (T, d): 1/r, 1/(r^2 cos elevation) or 1."""
+        return self._clutter_volume(
+            position - np.array(coverage.sensor_position)[: self.dimensions]
+        )
+
     def measure(self, plots: Plots, pose: PlatformPose, coverage: Coverage, volume: float) -> Scan:
         """
         Bring plots from sensor axes into the tracking frame.
@@ -79,7 +89,7 @@ class Radar:
         d = self.dimensions
         local, covariance = self._local(plots)
         turn, origin = _sensor_pose(pose, self.config.mount)
-        position = np.einsum('mij,mj->mi', turn, local) + origin
+        position = (turn @ local[..., None])[..., 0] + origin
         covariance = turn @ covariance @ np.swapaxes(turn, 1, 2)
         covariance = covariance + _platform_noise(pose, position - origin)
         unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
@@ -92,7 +102,7 @@ class Radar:
             range_rate=plots.range_rate,
             range_rate_variance=_or(plots.range_rate_sd, self.config.range_rate_sd) ** 2,
             snr=plots.snr,
-            clutter_volume=self._clutter_volume(plots),
+            clutter_volume=self._clutter_volume(local[:, :d]),
             sensor_position=origin,
             sensor_velocity=pose.velocity,
             coverage=coverage,
@@ -118,29 +128,27 @@ class Radar:
         position[:, :d], covariance[:, :d, :d] = to_cartesian(polar[:, :d], sd[:, :d])
         return position, covariance
 
-    def _clutter_volume(self, plots: Plots) -> Floats:
-        """Return plot space per m^d at the plots (M,): 1/r, 1/(r^2 cos elevation) or 1."""
+    def _clutter_volume(self, offset: Floats) -> Floats:
+        """Return plot space per m^d (M,) at places (M, d) seen from the sensor."""
         if not self.is_polar:
-            return np.ones(len(plots))
-        distance = np.maximum(plots.range, 1.0)
+            return np.ones(len(offset))
+        ground = np.maximum(np.hypot(offset[:, 0], offset[:, 1]), 1.0)
         if self.dimensions == 2:
-            return np.asarray(1.0 / distance)
-        level = np.maximum(np.cos(np.nan_to_num(plots.elevation)), 1e-3)
-        return np.asarray(1.0 / (distance**2 * level))
+            return np.asarray(1.0 / ground)
+        return np.asarray(1.0 / (np.hypot(ground, offset[:, 2]) * ground))  # 1/(r^2 cos elevation)
 
 
 def _sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats, Floats]:
     """Return rotation (M, 3, 3) from sensor to tracking axes and the sensor's position (M, 3)."""
-    if len(pose.position) == 0:
-        return np.zeros((0, 3, 3)), np.zeros((0, 3))
-    platform = Rotation.from_quat(pose.orientation)
-    offset = platform.apply([mount.x, mount.y, mount.z])
-    turn = (platform * Rotation.from_euler('z', mount.yaw)).as_matrix()
-    return turn, pose.position + offset
+    platform, c, s = pose.rotation, np.cos(mount.yaw), np.sin(mount.yaw)
+    turn = platform @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return turn, pose.position + platform @ np.array([mount.x, mount.y, mount.z])
 
 
 def _platform_noise(pose: PlatformPose, offset: Floats) -> Floats:
     """Return what the platform's own uncertainty adds (M, 3, 3): its position and its heading."""
+    if not pose.yaw_variance.any():
+        return pose.position_covariance
     across = np.stack([-offset[:, 1], offset[:, 0], np.zeros(len(offset))], axis=1)
     swing = across[:, :, None] * across[:, None, :] * pose.yaw_variance[:, None, None]
     return pose.position_covariance + swing

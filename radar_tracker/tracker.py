@@ -14,7 +14,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import to_polar
 from radar_tracker.sensor import Radar
 from tracking_core.batches import Coverage, Floats, Plots, State, Tracks
-from tracking_core.platform import Platform, PlatformPose
+from tracking_core.platform import Platform, pose_at
 from tracking_core.rows import concatenate
 from tracking_core.tracker import Tracker
 
@@ -33,7 +33,13 @@ class RadarTracker:
 
     def _forget(self, next_id: int) -> None:
         scan = self.config.scan
-        self._antenna = Antenna(scan.period, scan.assembly != 'sector', scan.time_reference)
+        self._antenna = Antenna(
+            scan.period,
+            full_turns=scan.assembly != 'sector',
+            time_reference=scan.time_reference,
+            stares=scan.assembly == 'snapshot',
+        )
+        self._latest_stamp = np.nan  # of the messages that are collected to turns
         self._radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
         self._is_known = False  # which radar it is
         self._farthest = 0.0  # plot so far [m]
@@ -102,7 +108,7 @@ class RadarTracker:
         collected = self._collect(plots)
         if collected is None:
             return self.tracks
-        pose = _pose(platform, collected.time)
+        pose = pose_at(platform, collected.time)
         sweep = self._antenna.follow(collected, self._azimuth(collected))
         coverage = self._coverage(sweep, platform)
         volume = self._radar.plot_space_volume(self._farthest or self.config.sensor.range_max)
@@ -130,7 +136,9 @@ class RadarTracker:
         rate = abs(self._antenna.rotation_rate)
         period = self.config.scan.period or (TWO_PI / rate if rate else 0.0)
         self._collected = replace(joined, stamp=first)
-        if plots.stamp - first < period * (1.0 - 1e-6):
+        ahead = plots.stamp - self._latest_stamp  # when this message will be over
+        self._latest_stamp = plots.stamp
+        if plots.stamp + np.nan_to_num(ahead) - first < period * (1.0 - 1e-3):
             return None
         turn, self._collected = self._collected, None
         return turn
@@ -143,7 +151,7 @@ class RadarTracker:
     def _coverage(self, sweep: Sweep, platform: Platform | None) -> Coverage:
         """Turn what the antenna swept into the tracking frame."""
         sensor = self.config.sensor
-        ends = _pose(platform, np.array([sweep.start_time, sweep.end_time]))
+        ends = pose_at(platform, np.array([sweep.start_time, sweep.end_time]))
         heading = ends.yaw + sensor.mount.yaw
         turn = float(np.angle(np.exp(1j * (heading[1] - heading[0]))))
         x, y, z = ends.position[1] + [sensor.mount.x, sensor.mount.y, sensor.mount.z]
@@ -159,17 +167,3 @@ class RadarTracker:
             sector_centre=sensor.sector_centre + float(heading[1]),
             sector_width=sensor.sector_width,
         )
-
-
-def _pose(platform: Platform | None, times: Floats) -> PlatformPose:
-    """Return own ship at these times, at rest at the origin if there is none."""
-    if platform is not None:
-        return platform.at(times)
-    M = len(times)
-    return PlatformPose(
-        position=np.zeros((M, 3)),
-        orientation=np.tile([0.0, 0.0, 0.0, 1.0], (M, 1)),
-        velocity=np.zeros((M, 3)),
-        position_covariance=np.zeros((M, 3, 3)),
-        yaw_variance=np.zeros(M),
-    )

@@ -123,3 +123,16 @@ def test_follow_heeds_what_the_stamp_means(reference: str, ahead: float) -> None
     nothing = Plots.polar(np.zeros(0), np.zeros(0), np.zeros(0))
     sweep = antenna.follow(replace(nothing, stamp=36.0 - ahead), nothing.azimuth)
     assert sweep.end_time == pytest.approx(36.0, abs=0.01)
+
+
+@pytest.mark.parametrize('rotation', ['staring', 'clockwise', 'anticlockwise'])
+def test_follow_makes_up_no_rotation_from_one_contact(rotation: str) -> None:
+    """One contact once in 4 s fits 4 s a turn, 2 s, 1 s ...: better no rate than a wrong one."""
+    radar = Radar(
+        period=4.0, range_sd=30.0, azimuth_sd=0.002, detection_probability=0.8, rotation=rotation
+    )
+    for contact in CONTACTS:
+        antenna = Antenna(0.0, True, 'start')
+        scene = Scenario(radar, (contact,), 200.0)
+        follow(antenna, [plots for plots, _ in messages(scene, np.random.default_rng(3))])
+        assert antenna.rotation_rate == 0.0

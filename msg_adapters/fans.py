@@ -1,0 +1,138 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How sonar tracks are drawn: fans from where the sensor is, their mirror images, gates and ids.
+
+A fan is one triangle, scaled. Where the range is known, position and velocity are drawn too, as
+those of radar tracks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Set
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.bodies import Bodies
+from msg_adapters.brush import Brush
+from msg_adapters.message_types import MessageTypes
+from msg_adapters.shapes import (
+    arrows,
+    colours,
+    ellipses,
+    erase,
+    LETTER,
+    Look,
+    SIGMAS,
+)
+from tracking_core.batches import Floats, Tracks
+
+LOCATED = ('velocity', 'covariance')
+NAMESPACES = ('fan', 'mirror', 'gate', 'id', *LOCATED)
+OPACITY = {'fan': 0.6, 'mirror': 0.2, 'gate': 0.12}
+NARROWEST, WIDEST = 1e-3, 1.2  # half widths that can be seen, and that are still fans [rad]
+# In the fan's own axes, before scaling: its point is the sensor.
+_TRIANGLE = ([0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0])
+
+
+@dataclass(frozen=True)
+class Fans:
+    """Where sonar tracks are to be drawn."""
+
+    bearing: Floats  # (T,) [rad]
+    bearing_sd: Floats  # (T,) [rad]
+    gate: Floats  # (T,) half size [rad]
+    origin: tuple[float, float, float]  # of the sensor [m]
+    axis: float | None  # of an array that cannot tell left from right [rad]
+    length: float  # [m]
+
+
+def to_fan_markers(
+    tracks: Tracks,
+    fans: Fans,
+    located: Bodies,
+    shown: Set[int],
+    header: Any,
+    types: MessageTypes,
+    *,
+    lead_time: float,
+) -> Any:
+    """
+    Return the MarkerArray of all tracks.
+
+    Parameters
+    ----------
+    tracks : Tracks
+        What is drawn; tentative tracks are pale.
+    fans : Fans
+        Row by row.
+    located : Bodies
+        Those tracks whose range is known.
+    shown : set of int
+        Ids drawn before; those that are gone are deleted.
+    header : Header
+        Of the cycle, in the tracking frame.
+    types : MessageTypes
+        Classes to build the message from.
+    lead_time : float
+        Arrows end where the contacts will be after this time [s].
+
+    """
+    brush = Brush(header, types)
+    colour = colours(tracks.id, tracks.confirmed)
+    known = np.isin(tracks.id, located.id)
+    look = Look(located, colour[known], fans.length)
+    narrow = SIGMAS * fans.bearing_sd
+    parts = [
+        erase(shown, tracks.id, NAMESPACES, brush),
+        erase(shown & set(tracks.id[~known].tolist()), located.id, LOCATED, brush),
+        _fans('fan', fans.bearing, narrow, tracks, fans, colour, brush),
+        _fans('gate', fans.bearing, fans.gate, tracks, fans, colour, brush),
+        _labels(tracks, fans, colour, brush),
+        arrows(look, brush, lead_time),
+        ellipses(look, brush),
+    ]
+    if fans.axis is not None:
+        mirrored = 2.0 * fans.axis - fans.bearing
+        parts.append(_fans('mirror', mirrored, narrow, tracks, fans, colour, brush))
+    return types.MarkerArray(markers=list(chain.from_iterable(parts)))
+
+
+def _fans(
+    space: str,
+    bearing: Floats,
+    half_width: Floats,
+    tracks: Tracks,
+    fans: Fans,
+    colour: Floats,
+    brush: Brush,
+) -> Iterator[Any]:
+    """Yield a triangle for each track; none where its width is not known."""
+    aside = fans.length * np.tan(np.clip(half_width, NARROWEST, WIDEST))
+    zero, half = np.zeros(len(bearing)), 0.5 * bearing
+    turn = np.stack([zero, zero, np.sin(half), np.cos(half)], axis=1)
+    scale = np.stack([np.full(len(bearing), fans.length), aside, np.ones(len(bearing))], axis=1)
+    paint = colour * [1.0, 1.0, 1.0, OPACITY[space]]
+    rows = (values.tolist() for values in (tracks.id, turn, scale, paint))
+    for identity, toward, size, fill in zip(*rows, strict=True):
+        if np.isfinite(size[1]):
+            yield brush.marker(
+                space, identity, 'TRIANGLE_LIST', position=fans.origin, turn=toward, scale=size,
+                color=fill, points=_TRIANGLE,
+            )  # fmt: skip
+
+
+def _labels(tracks: Tracks, fans: Fans, colour: Floats, brush: Brush) -> Iterator[Any]:
+    """Yield the ids, a little beyond the ends of the fans."""
+    letter = 2.0 * LETTER * fans.length
+    line = np.stack([np.cos(fans.bearing), np.sin(fans.bearing), 0.0 * fans.bearing], axis=1)
+    place = np.array(fans.origin) + (fans.length + letter) * line
+    rows = (values.tolist() for values in (tracks.id, place, colour))
+    for identity, end, fill in zip(*rows, strict=True):
+        yield brush.marker(
+            'id', identity, 'TEXT_VIEW_FACING', position=end, scale=[0.0, 0.0, letter], color=fill,
+            text=str(identity),
+        )  # fmt: skip

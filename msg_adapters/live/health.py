@@ -1,0 +1,70 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How well a tracker is doing, in the words and numbers of /diagnostics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from msg_adapters.session import Session
+
+NEAR_CAPACITY = 0.9  # of max_tracks
+QUIET = 5.0  # s without plots that are worth a warning
+
+
+@dataclass
+class Health:
+    """Times of the last step and of the last messages, and what was complained about so far."""
+
+    started: float  # when the node became active, by a clock that never goes back [s]
+    step_time: float = 0.0  # of the last plots message [s]
+    latency: float = math.nan  # from arrival to tracks [s]
+    plots_at: float = -math.inf  # when the last plots came, by the same clock [s]
+    ownship_at: float = -math.inf
+    _complaints: int = 0
+
+    def level(self, session: Session, now: float) -> tuple[str, str]:
+        """Return level and message: what is worst at the moment."""
+        if now - max(self.plots_at, self.started) > QUIET:
+            return 'WARN', f'no {session.instrument.topic}'
+        if len(session.tracks) >= NEAR_CAPACITY * session.instrument.tracker.config.max_tracks:
+            return 'WARN', 'close to max_tracks'
+        if _complaints(session) > self._complaints:
+            return 'WARN', 'input refused, dropped or lost'
+        return 'OK', 'tracking'
+
+    def told(self, session: Session) -> None:
+        """Take note that complaints up to now have been reported."""
+        self._complaints = _complaints(session)
+
+    def values(self, session: Session, now: float) -> dict[str, object]:
+        """Return every number by name; ages and times in s."""
+        tracks, report = session.tracks, session.instrument.tracker.state.report
+        topic = session.instrument.topic
+        capacity = session.instrument.tracker.config.max_tracks
+        return {
+            'tracks': len(tracks),
+            'tracks confirmed': int(tracks.confirmed.sum()),
+            'tracks capacity': capacity,
+            'tracks refused (capacity)': report.refused,
+            'tracks broken': report.broken,
+            f'{topic} used': report.plots,
+            f'{topic} held': report.held,
+            'clutter density': report.clutter_density,
+            'step time [s]': self.step_time,
+            'latency [s]': self.latency,
+            f'{topic} age [s]': now - self.plots_at,
+            'ownship age [s]': now - self.ownship_at,
+            'clock jumps': session.guard.jumps,
+            **session.counts[topic].values(topic),
+            **session.counts['ownship'].values('ownship'),
+            **session.counts['acquire'].values('acquire'),
+        }
+
+
+def _complaints(session: Session) -> int:
+    return sum(
+        count.lost + count.refused.total() + count.dropped.total()
+        for count in session.counts.values()
+    )

@@ -1,0 +1,94 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A tracker as a ROS node: its parameters and its lifecycle.
+
+Topics are in ``topics.py``, what happens to a message in ``msg_adapters/session.py``.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+
+from msg_adapters.live.topics import LiveTopics, MakeSession
+from msg_adapters.node import NotStarted
+from msg_adapters.parameters import Configs, NodeParameters
+
+
+class TrackerNode(LifecycleNode):
+    """
+    Plots of one sensor to tracks.
+
+    Subscribes to the sensor's topic (PointCloud2), `ownship` (Odometry), `acquire` (PointStamped)
+    and `cancel` (UInt32); publishes `~/tracks` (PointCloud2), `~/odometry` (Odometry), `~/markers`
+    (MarkerArray) and `/diagnostics`; serves `~/reset` (Trigger).
+
+    Parameters
+    ----------
+    name : str
+        Of the node.
+    configs : tuple
+        Defaults of the parameters: those of the tracker, then those of the node.
+    make_session : callable
+        Returns what the messages are handed to.
+
+    """
+
+    def __init__(self, name: str, configs: Configs, make_session: MakeSession) -> None:
+        super().__init__(name)
+        self._make_session = make_session
+        self._live: LiveTopics | None = None
+        self._settings = NodeParameters(self, configs, self._reconfigure)
+        self._settings.tell()
+        _, node_config = self._settings.configs
+        if node_config.autostart:
+            self._start()
+
+    def _start(self) -> None:
+        steps: tuple[Any, ...] = (self.trigger_configure, self.trigger_activate)
+        for step in steps:
+            if step() != TransitionCallbackReturn.SUCCESS:
+                raise NotStarted('the node could not be configured and activated')
+
+    def _reconfigure(self, configs: Configs) -> None:
+        if self._live is not None:
+            self._live.reconfigure(configs)
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Make the tracker and open all topics."""
+        try:
+            self._live = LiveTopics(self, self._make_session, self._settings.configs)
+        except (ValueError, RuntimeError) as error:  # what fits alone but not together, a bad QoS
+            if self.context.ok():  # else it is just a signal that came meanwhile
+                self._settings.logger.fatal(f'cannot be configured: {error}')
+            return TransitionCallbackReturn.FAILURE
+        return super().on_configure(state)
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Begin to track."""
+        if self._live is not None:
+            self._live.activate()
+        return super().on_activate(state)
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Stop listening; tracks are kept."""
+        if self._live is not None:
+            self._live.deactivate()
+        return super().on_deactivate(state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Forget everything."""
+        self._close()
+        return super().on_cleanup(state)
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Forget everything, for good."""
+        self._close()
+        return super().on_shutdown(state)
+
+    def _close(self) -> None:
+        if self._live is not None:
+            self._live.close()
+            self._live = None

@@ -1,0 +1,199 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a node listens to and says while it is configured; messages go to the session."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import PointCloud2
+from std_msgs.msg import UInt32
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import MarkerArray
+
+from msg_adapters.diagnostics import to_diagnostics
+from msg_adapters.live.display import Display
+from msg_adapters.live.health import Health, QUIET
+from msg_adapters.message_types import rclpy_types, seconds
+from msg_adapters.node import (
+    advertise,
+    arrival_time,
+    explain_silence,
+    NANOSECONDS,
+    on_clock_going_back,
+    steady_timer,
+    subscribe,
+)
+from msg_adapters.odometry import to_odometry
+from msg_adapters.session import Session
+
+Configs = tuple[Any, ...]
+MakeSession = Callable[..., Session]
+
+CLOCK_OFF = 10.0  # s between stamps and clock that are worth a word
+
+
+class LiveTopics:
+    """
+    The topics of one tracker.
+
+    Parameters
+    ----------
+    node : LifecycleNode
+        Whose topics they are.
+    make_session : callable
+        Returns the session, from the configs, message classes and a log.
+    configs : tuple
+        Of the tracker and of the node.
+
+    """
+
+    def __init__(self, node: Any, make_session: MakeSession, configs: Configs) -> None:
+        self._node, self._node_config = node, configs[1]
+        self._types = rclpy_types()
+        self._session = make_session(*configs, self._types, node.get_logger())
+        self._topic = self._session.instrument.topic
+        self._display = Display(self._types)
+        self._health = Health(time.monotonic())
+        self._level, self._is_active, self._is_heard, self._is_late = '', False, False, False
+        self._inputs = {  # of two that are there, the executor takes the first
+            'ownship': subscribe(node, Odometry, 'ownship', self._on_ownship),
+            self._topic: subscribe(node, PointCloud2, self._topic, self._on_plots),
+            'acquire': subscribe(node, PointStamped, 'acquire', self._on_acquire),
+            'cancel': subscribe(node, UInt32, 'cancel', self._on_cancel),
+        }
+        self._tracks = advertise(node, PointCloud2, '~/tracks')
+        self._odometry = advertise(node, Odometry, '~/odometry')
+        self._markers = advertise(node, MarkerArray, '~/markers')
+        self._diagnostics = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._reset = node.create_service(Trigger, '~/reset', self._on_reset)
+        self._timer = steady_timer(node, 1.0, self._tick)
+        self._jumps = on_clock_going_back(node, self._session.guard.clock_moved)
+
+    def close(self) -> None:
+        """Give all topics back."""
+        self._jumps.unregister()
+        self._node.destroy_timer(self._timer)
+        self._node.destroy_service(self._reset)
+        self._node.destroy_publisher(self._diagnostics)
+        for publisher in (self._tracks, self._odometry, self._markers):
+            self._node.destroy_lifecycle_publisher(publisher)
+        for subscription in self._inputs.values():
+            self._node.destroy_subscription(subscription)
+
+    def activate(self) -> None:
+        """Begin to track."""
+        self._health = Health(time.monotonic())
+        self._is_active, self._is_heard = True, False
+
+    def deactivate(self) -> None:
+        """Stop listening and clear the screens; tracks are kept."""
+        self._is_active = False
+        if self._session.stamp is not None:
+            self._markers.publish(self._display.erase(self._session.header()))
+
+    def reconfigure(self, configs: Configs) -> None:
+        """Go on with other live parameters."""
+        config, self._node_config = configs
+        self._session.instrument.tracker.reconfigure(config)
+
+    def _on_plots(self, msg: Any, info: Any) -> None:
+        if not self._is_active:
+            return
+        begun = time.perf_counter()
+        self._count(self._topic, info)
+        self._health.plots_at, self._is_heard = time.monotonic(), True
+        self._compare_clocks(msg)
+        table = self._session.plots(msg, arrival_time(self._node))
+        if table is not None:
+            self._tracks.publish(table)
+            self._show()
+            self._health.latency = (time.time_ns() - info['received_timestamp']) / NANOSECONDS
+        self._health.step_time = time.perf_counter() - begun
+        self._report()
+
+    def _show(self) -> None:
+        """Publish what is for eyes and other tools, while somebody subscribes."""
+        instrument, frame = self._session.instrument, self._session.frame.name
+        instrument.follow()
+        self._display.is_behind = True
+        if self._odometry.get_subscription_count():
+            for msg in to_odometry(instrument.to_bodies(), frame, self._types):
+                self._odometry.publish(msg)
+        self._draw()
+
+    def _draw(self) -> None:
+        """Publish markers if somebody looks and they are due."""
+        now, markers = time.monotonic(), self._node_config.markers
+        if self._markers.get_subscription_count() and self._display.is_due(now, markers.rate):
+            self._markers.publish(self._display.draw(self._session, now, markers))
+
+    def _on_ownship(self, msg: Any, info: Any) -> None:
+        if self._is_active:
+            self._count('ownship', info)
+            self._health.ownship_at = time.monotonic()
+            self._session.ownship(msg, arrival_time(self._node))
+
+    def _on_acquire(self, msg: Any) -> None:
+        if self._is_active:
+            self._session.acquire(msg)
+
+    def _on_cancel(self, msg: Any) -> None:
+        if self._is_active:
+            self._session.cancel(msg.data)
+
+    def _on_reset(self, _: Any, response: Any) -> Any:
+        self._session.reset()
+        response.success, response.message = True, 'all tracks are forgotten'
+        self._node.get_logger().info('reset: all tracks are forgotten')
+        return response
+
+    def _count(self, topic: str, info: Any) -> None:
+        number = info.get('publication_sequence_number')
+        publishers = self._inputs[topic].get_publisher_count()
+        self._session.counts[topic].received(number, publishers)
+
+    def _compare_clocks(self, msg: Any) -> None:
+        """Say once when stamps and clock have nothing to do with each other."""
+        now = self._node.get_clock().now().nanoseconds / NANOSECONDS
+        off = seconds(msg.header.stamp) - now
+        if abs(off) > CLOCK_OFF and not self._is_late:
+            self._is_late = True
+            side = 'ahead of' if off > 0.0 else 'behind'
+            self._node.get_logger().warning(
+                f'header.stamp of {self._topic} is {abs(off):.0f} s {side} the clock: '
+                'use_sim_time? Tracking goes by the stamps'
+            )
+
+    def _tick(self) -> None:
+        """Once a second: report, draw what was not due before, and explain a silence."""
+        now = time.monotonic()
+        if self._session.stamp is not None:
+            self._draw()
+        if self._is_active and not self._is_heard and now - self._health.started > QUIET:
+            self._is_heard = True
+            self._node.get_logger().warning(explain_silence(self._node, self._inputs[self._topic]))
+        self._level = ''
+        self._report()
+        self._health.told(self._session)
+
+    def _report(self) -> None:
+        """Publish the diagnostics if their level is not the one that was said last."""
+        now = time.monotonic()
+        level, text = self._health.level(self._session, now)
+        if not self._is_active:
+            level, text = 'OK', 'not active'
+        if level == self._level:
+            return
+        self._level = level
+        values = self._health.values(self._session, now)
+        header = self._types.Header(stamp=self._node.get_clock().now().to_msg(), frame_id='')
+        name = f'{self._node.get_name()}: tracking'
+        self._diagnostics.publish(
+            to_diagnostics(name, level, text, values=values, header=header, types=self._types)
+        )

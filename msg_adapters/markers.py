@@ -1,0 +1,102 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How radar tracks are drawn: history, velocity, covariance, gate and id.
+
+Only the history is a line; the shapes are those of ``shapes.py``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Set
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.brush import Brush
+from msg_adapters.message_types import MessageTypes
+from msg_adapters.shapes import (
+    arrows,
+    colours,
+    ellipses,
+    erase,
+    FLAT,
+    labels,
+    Look,
+    rows,
+    shapes,
+    THIN,
+)
+from msg_adapters.tracks import to_bodies
+from msg_adapters.trails import Trails
+from tracking_core.batches import Floats, Tracks
+
+NAMESPACES = ('history', 'velocity', 'covariance', 'gate', 'id')
+
+
+def to_markers(
+    tracks: Tracks,
+    trails: Trails,
+    shown: Set[int],
+    header: Any,
+    types: MessageTypes,
+    *,
+    output: str,
+    lead_time: float,
+) -> Any:
+    """
+    Return the MarkerArray of all tracks.
+
+    Parameters
+    ----------
+    tracks : Tracks
+        What is drawn; tentative tracks are pale.
+    trails : Trails
+        Where they were.
+    shown : set of int
+        Ids drawn before; those that are gone are deleted.
+    header : Header
+        Of the scan, in the tracking frame.
+    types : MessageTypes
+        Classes to build the message from.
+    output : str
+        'mmse' or 'map'.
+    lead_time : float
+        The arrow ends where the contact will be after this time [s].
+
+    """
+    brush = Brush(header, types)
+    markers = erase(shown, tracks.id, NAMESPACES, brush)
+    if len(tracks):
+        bodies = to_bodies(tracks, output)
+        extent = max(float(np.abs(bodies.state[:, :3]).max()), 1.0)
+        look = Look(bodies, colours(tracks.id, tracks.confirmed), extent)
+        parts = (
+            _histories(look, brush, trails),
+            arrows(look, brush, lead_time),
+            ellipses(look, brush),
+            _gates(look, brush, tracks.gate_size),
+            labels(look, brush),
+        )
+        markers.extend(chain.from_iterable(parts))
+    return types.MarkerArray(markers=markers)
+
+
+def _histories(look: Look, brush: Brush, trails: Trails) -> Iterator[Any]:
+    width = [THIN * look.extent, 0.0, 0.0]
+    position = trails.position
+    known = np.isfinite(position[:, :, 0]).sum(axis=1)
+    for row, (identity, _, count, colour) in enumerate(rows(look, known, look.colour)):
+        if count > 1:
+            points = position[row, :count].tolist()
+            yield brush.marker(
+                'history', identity, 'LINE_STRIP', scale=width, color=colour, points=points
+            )
+
+
+def _gates(look: Look, brush: Brush, gate: Floats) -> Iterator[Any]:
+    size = np.full((len(gate), 3), FLAT)
+    size[:, : gate.shape[1]] = np.maximum(2.0 * gate, FLAT)
+    level = np.tile([0.0, 0.0, 0.0, 1.0], (len(gate), 1))
+    return shapes(look, brush, 'gate', kind='CUBE', turn=level, size=size)

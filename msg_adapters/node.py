@@ -1,0 +1,149 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What every node of ours shares: how it starts and stops, and how it opens its topics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+import signal
+import sys
+import time
+from typing import Any
+
+import rclpy
+from rclpy.clock import Clock, JumpThreshold
+from rclpy.clock_type import ClockType
+from rclpy.duration import Duration
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from rclpy.utilities import ok, try_shutdown
+
+from msg_adapters.parameters import BadParameter
+
+STOPS = (signal.SIGINT, signal.SIGTERM)
+NANOSECONDS = 1_000_000_000
+
+
+class NotStarted(RuntimeError):  # noqa: N818 (a state rather than an error)
+    """The node said already why it cannot run."""
+
+
+def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
+    """
+    Run one node until it is told to stop; return the exit code.
+
+    Parameters
+    ----------
+    make_node : callable
+        Returns the node, ready to spin.
+    args : sequence of str, optional
+        Command line; that of the process by default.
+
+    Returns
+    -------
+    int
+        0 after SIGINT or SIGTERM, however many; 1 if the node could not start, which is said.
+
+    """
+    stops: list[int] = []
+    # rclpy ends its context on a signal; Python's own KeyboardInterrupt could come anywhere.
+    signal.signal(signal.SIGINT, lambda number, _: stops.append(number))
+    try:
+        rclpy.init(args=None if args is None else list(args))
+    except RuntimeError as error:  # arguments that are none, a parameter file that is not there
+        print(f'cannot start: {error}', file=sys.stderr)
+        return 1
+    try:
+        _spin(make_node(), stops)
+    except ExternalShutdownException:
+        pass
+    except (BadParameter, NotStarted) as error:
+        if not ok():
+            return 0  # a signal came while the node was being made
+        print(f'cannot start: {error}', file=sys.stderr)
+        return 1
+    except RuntimeError:
+        if ok():
+            raise
+        # A signal came while the node was talking: rclpy says that its context is gone.
+    finally:
+        _ignore_stops()
+        try_shutdown()
+        _ignore_stops()  # rclpy has put back what was before
+    return 0
+
+
+def _spin(node: Any, stops: list[int]) -> None:
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    try:
+        if not stops:
+            executor.spin()
+    finally:
+        _ignore_stops()
+        executor.shutdown()
+        node.destroy_node()
+
+
+def _ignore_stops() -> None:
+    for number in STOPS:
+        signal.signal(number, signal.SIG_IGN)
+
+
+def subscribe(node: Any, kind: Any, topic: str, callback: Callable[..., None]) -> Any:
+    """Return a subscription that any publisher can serve; users may override its QoS."""
+    qos = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
+    options = QoSOverridingOptions.with_default_policies()
+    return node.create_subscription(kind, topic, callback, qos, qos_overriding_options=options)
+
+
+def advertise(node: Any, kind: Any, topic: str) -> Any:
+    """Return a lifecycle publisher that any subscriber can hear; users may override its QoS."""
+    qos = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+    options = QoSOverridingOptions.with_default_policies()
+    return node.create_lifecycle_publisher(kind, topic, qos, qos_overriding_options=options)
+
+
+def steady_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:
+    """Return a timer that runs whether or not /clock does; `period` in s."""
+    return node.create_timer(period, callback, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
+def on_clock_going_back(node: Any, callback: Callable[[], None]) -> Any:
+    """Call back when simulated time goes back; return a handle to `unregister`."""
+    return node.get_clock().create_jump_callback(
+        JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1)),
+        post_callback=lambda jump: callback() if jump.delta.nanoseconds < 0 else None,
+    )
+
+
+def arrival_time(node: Any) -> float:
+    """Return the time that tells how long an input was silent: simulated, or steady [s]."""
+    clock = node.get_clock()
+    if clock.ros_time_is_active:
+        return float(clock.now().nanoseconds / NANOSECONDS)
+    return time.monotonic()
+
+
+def explain_silence(node: Any, subscription: Any) -> str:
+    """Return what a user must know who waits for output while nothing comes in."""
+    topic, wanted = subscription.topic_name, _type_name(subscription.msg_type)
+    others = [
+        f'{info.node_name} ({info.topic_type}, {_words(info.qos_profile)})'
+        for info in node.get_publishers_info_by_topic(topic)
+    ]
+    seen = f'publishers there: {"; ".join(others)}' if others else 'nobody publishes there'
+    text = f'nothing has come on {topic} ({wanted}, {_words(subscription.qos_profile)}); {seen}'
+    clock = node.get_clock()
+    if clock.ros_time_is_active and clock.now().nanoseconds == 0:
+        text += '; use_sim_time is true, but nothing has come on /clock either'
+    return text
+
+
+def _type_name(message: Any) -> str:
+    return f'{message.__module__.split(".")[0]}/msg/{message.__name__}'
+
+
+def _words(qos: Any) -> str:
+    return f'{qos.reliability.name.lower()}, {qos.durability.name.lower()}'.replace('_', ' ')

@@ -1,0 +1,50 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which parameters has every node beside those of its tracker: what concerns messages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from tracking_core.config import parameter, validate
+
+
+def field_name() -> Any:
+    """Return a parameter that names a field of a message."""
+    return parameter('', unit='', doc="the message's name for this field; empty: as documented")
+
+
+def drawing_rate() -> Any:
+    """Return the parameter that bounds how often markers are drawn."""
+    return parameter(
+        2.0, unit='Hz', doc='drawings per second at most; 0: none', low=0.0, high=100.0, live=True
+    )
+
+
+@dataclass(frozen=True)
+class NodeConfig:
+    """What a node needs beside the tracker's own parameters."""
+
+    markers: Any
+    """Config with the `rate` of drawings and what else the sensor's drawings need."""
+    fields: Any
+    """Config with the message's name for each of our fields."""
+    tracking_frame: str = parameter(
+        '', unit='', doc='frame of the tracks; empty: that of own ship or, without, of the plots'
+    )
+    autostart: bool = parameter(
+        True, unit='', doc='configure and activate at once, without a lifecycle manager'
+    )
+    time_jump_threshold: float = parameter(
+        10.0, unit='s', doc='a stamp further off is refused until several in a row agree',
+        low=0.01, high=1e6,
+    )  # fmt: skip
+    ownship_timeout: float = parameter(
+        2.0, unit='s', doc='plots may be so far from the nearest odometry of own ship', low=0.0,
+        high=3600.0,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)

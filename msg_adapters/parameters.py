@@ -1,0 +1,174 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How config dataclasses become the parameters of a node, and stay what the node runs with.
+
+Everything about a parameter is written once, in its config: here it is declared, checked and
+followed while the node runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from difflib import get_close_matches
+import sys
+from typing import Any
+
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
+
+from tracking_core.config import Parameter, parameters, with_values
+
+Configs = tuple[Any, ...]
+
+# What rclpy declares by itself.
+_OF_ROS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
+_WIDEST_INTEGER = 2**63 - 1
+
+
+class BadParameter(ValueError):  # noqa: N818 (it is the parameter that is bad)
+    """A parameter that the node cannot run with; names the parameter, the limit and the value."""
+
+
+class NodeParameters:
+    """
+    The parameters of one node.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Where they are declared, with the values that files and arguments give.
+    configs : tuple of dataclasses
+        Defaults; no name occurs in two of them.
+    changed : callable
+        Called with the new configs after a change while the node runs.
+
+    Raises
+    ------
+    BadParameter
+        For a value outside its limits or of another type.
+
+    """
+
+    configs: Configs
+
+    def __init__(self, node: Any, configs: Configs, changed: Callable[[Configs], None]) -> None:
+        given = overrides(node)
+        self.configs = _with_values(configs, given)
+        self._changed, self.logger = changed, node.get_logger()
+        for entry in _all_parameters(self.configs):
+            node.declare_parameter(
+                entry.name, _to_ros(entry.value), describe(entry), ignore_override=True
+            )
+        node.add_on_set_parameters_callback(self._check)
+        node.add_post_set_parameters_callback(self._follow)
+        self.unknown = _unknown(given, {entry.name for entry in _all_parameters(configs)})
+        self.given = len(given) - len(self.unknown)
+
+    def tell(self) -> None:
+        """Say how many parameters were given, and which names nobody knows."""
+        if self.given:
+            self.logger.info(f'{self.given} parameters come from files or arguments')
+        for name, near in self.unknown.items():
+            hint = f'; did you mean {near}?' if near else ''
+            self.logger.warning(f'there is no parameter {name}, it has no effect{hint}')
+
+    def _check(self, changes: list[Any]) -> SetParametersResult:
+        """Say whether the node could run with these changes together."""
+        try:
+            _with_values(self.configs, {change.name: change.value for change in changes})
+        except BadParameter as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _follow(self, changes: list[Any]) -> None:
+        configs = _with_values(self.configs, {change.name: change.value for change in changes})
+        if configs != self.configs:
+            self.configs = configs
+            self._changed(configs)
+
+
+def overrides(node: Any) -> dict[str, Any]:
+    """Return the values that files and arguments give this node, by parameter name."""
+    # rclpy has no public way to see names that nobody declares; typing errors are among them.
+    return {name: given.value for name, given in node._parameter_overrides.items()}
+
+
+def describe(entry: Parameter) -> ParameterDescriptor:
+    """Return what `ros2 param describe` shows; an int is accepted for a double."""
+    unit = f' [{entry.unit}]' if entry.unit else ''
+    descriptor = ParameterDescriptor(
+        description=f'{entry.doc}{unit}',
+        additional_constraints=f'one of: {", ".join(entry.choices)}' if entry.choices else '',
+        read_only=not entry.live,
+        dynamic_typing=True,
+    )
+    bounded = entry.low is not None or entry.high is not None
+    if bounded and isinstance(entry.value, float):
+        low, high = _limits(entry, sys.float_info.max)
+        descriptor.floating_point_range = [
+            FloatingPointRange(from_value=float(low), to_value=float(high), step=0.0)
+        ]
+    elif bounded and isinstance(entry.value, int):
+        low, high = _limits(entry, _WIDEST_INTEGER)
+        descriptor.integer_range = [IntegerRange(from_value=int(low), to_value=int(high), step=1)]
+    elif bounded:  # a list: ROS has no ranges for these
+        descriptor.additional_constraints = f'each in [{entry.low}, {entry.high}]'
+    return descriptor
+
+
+def _limits(entry: Parameter, widest: float) -> tuple[float, float]:
+    low = -widest if entry.low is None else entry.low
+    return low, widest if entry.high is None else entry.high
+
+
+def _all_parameters(configs: Configs) -> Iterator[Parameter]:
+    for config in configs:
+        yield from parameters(config)
+
+
+def _to_ros(value: Any) -> Any:
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _with_values(configs: Configs, values: Mapping[str, Any]) -> Configs:
+    """Return the configs with those of the values that are theirs."""
+    return tuple(_with_own_values(config, values) for config in configs)
+
+
+def _with_own_values(config: Any, values: Mapping[str, Any]) -> Any:
+    own = {p.name: values[p.name] for p in parameters(config) if p.name in values}
+    try:
+        return with_values(config, own)
+    except (TypeError, ValueError) as error:  # an array where a number belongs is a TypeError
+        raise BadParameter(_in_words(config, own, str(error))) from error
+
+
+def _in_words(config: Any, own: Mapping[str, Any], text: str) -> str:
+    """Return the error with the parameter's full name first."""
+    for field_name, name in _full_names(config):
+        if field_name in text and name in own:
+            return f'parameter {name}: {text.replace(field_name, name)}'
+    given = ', '.join(f'{name} = {value!r}' for name, value in own.items())
+    return f'parameters {given}: {text}'
+
+
+def _full_names(config: Any, prefix: str = '') -> Iterator[tuple[str, str]]:
+    """Yield 'Class.field', as errors say it, and the parameter's name."""
+    for f in fields(config):
+        value = getattr(config, f.name)
+        if is_dataclass(value):
+            yield from _full_names(value, f'{prefix}{f.name}.')
+        else:
+            yield f'{type(config).__name__}.{f.name}', prefix + f.name
+
+
+def _unknown(given: Mapping[str, Any], known: set[str]) -> dict[str, str]:
+    """Return the names that no config has, each with the nearest that one has, or ''."""
+    strange = [name for name in given if name not in known and not name.startswith(_OF_ROS)]
+    return {name: ''.join(get_close_matches(name, known, 1)) for name in strange}

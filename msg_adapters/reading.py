@@ -1,0 +1,99 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What reading rows has in common, whatever the sensor: columns, times, and what is left out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from msg_adapters.bad_message import BadMessage
+from msg_adapters.fields import find_fields, Names
+from msg_adapters.message_types import NANOSECONDS, seconds
+from msg_adapters.row_checks import OUT_OF_RANGE
+from msg_adapters.table import Columns, to_columns
+from tracking_core.batches import Bearings, Bools, Floats, Plots
+
+ABSOLUTE_TIME = 1e8  # s; a larger `time` counts from the epoch, not from the stamp
+
+Rows = TypeVar('Rows', Plots, Bearings)
+
+
+@dataclass(frozen=True)
+class Reading(Generic[Rows]):
+    """Plots of one message, and what there is to say about the rest of it."""
+
+    plots: Rows
+    dropped: dict[str, int]  # rows by reason
+    doubtful: dict[str, int]  # values that were not used, or rows that contradict themselves
+    mapping: dict[str, str]  # our field: theirs
+    note: str = ''  # what a user may have meant otherwise, '' for nothing
+
+
+@dataclass(frozen=True)
+class Fields:
+    """A message by the names of our fields."""
+
+    columns: Columns  # all of them, by their names
+    mapping: dict[str, str]  # our field: theirs
+    values: dict[str, Floats]  # ours, one number per row
+    stamp: float  # of the message [s]
+    time: Floats  # (M,) of each row [s]
+    frame: str
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+def read_fields(msg: Any, max_rows: int, names: Names, overrides: Mapping[str, str]) -> Fields:
+    """
+    Return a PointCloud2 by the names of our fields.
+
+    Raises
+    ------
+    BadMessage
+        For sizes that do not fit, and for fields that the user named and that are not there.
+
+    """
+    columns = to_columns(msg, max_rows)
+    mapping = find_fields(columns, names, overrides)
+    values = {ours: _numbers(columns, theirs) for ours, theirs in mapping.items()}
+    stamp = seconds(msg.header.stamp)
+    offset = _offset(values, columns, mapping, stamp, msg.width * msg.height)
+    return Fields(columns, mapping, values, stamp, stamp + offset, msg.header.frame_id.lstrip('/'))
+
+
+def _numbers(columns: Columns, name: str) -> Floats:
+    values = columns[name]
+    if values.ndim != 1:
+        raise BadMessage('bad field', f'field {name} has count {values.shape[1]}, not 1')
+    with np.errstate(invalid='ignore'):  # a signalling NaN is still just a NaN
+        return values.astype(np.float64)
+
+
+def _offset(
+    values: Mapping[str, Floats],
+    columns: Columns,
+    mapping: Mapping[str, str],
+    stamp: float,
+    rows: int,
+) -> Floats:
+    """Return the time of each row after the stamp [s]."""
+    if 'time' not in values:
+        return np.zeros(rows)
+    time, kind = values['time'], columns[mapping['time']].dtype
+    if kind.kind in 'iu':
+        return time / NANOSECONDS
+    absolute = (time > ABSOLUTE_TIME) & (kind == np.float64)
+    return np.where(absolute, time - stamp, time)
+
+
+def refuse_if_useless(keep: Bools, dropped: Mapping[str, int]) -> None:
+    """Raise BadMessage where no row (M,) is left for other reasons than the sensor's limits."""
+    if not keep.any() and any(not reason.startswith(OUT_OF_RANGE) for reason in dropped):
+        # Not the same as a scan that saw nothing: tracks must not miss it.
+        reasons = ', '.join(f'{reason} ({count})' for reason, count in dropped.items())
+        raise BadMessage('no usable row', f'none of {len(keep)} rows can be used: {reasons}')

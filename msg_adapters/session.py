@@ -1,0 +1,174 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What is done with each message, without a ROS graph and whatever the sensor.
+
+The node hands over what it receives and publishes what comes back; a replay may do the same with
+the messages of a bag. Whatever a message contains, the worst that happens is that it is refused,
+counted and complained about.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.bad_message import BadMessage
+from msg_adapters.diagnostics import InputCount
+from msg_adapters.frames import TrackingFrame
+from msg_adapters.instrument import Instrument
+from msg_adapters.ledger import Ledger, Log
+from msg_adapters.message_types import MessageTypes, seconds
+from msg_adapters.node_config import NodeConfig
+from msg_adapters.ownship import to_platform
+from msg_adapters.reading import Reading
+from msg_adapters.stamp_guard import StampGuard
+from tracking_core.batches import Tracks
+from tracking_core.platform import Platform, StalePlatform
+
+
+class Session:
+    """
+    One sensor from the first message on.
+
+    Parameters
+    ----------
+    instrument : Instrument
+        The sensor and its tracker.
+    node_config : NodeConfig
+        Of the messages.
+    types : MessageTypes
+        Classes of the messages that come back.
+    log : Log
+        Takes what a user must know.
+
+    """
+
+    def __init__(
+        self, instrument: Instrument, node_config: NodeConfig, types: MessageTypes, log: Log
+    ) -> None:
+        self.instrument = instrument
+        self.ledger = Ledger(f'{instrument.topic} ownship acquire', log.warning)
+        self.guard = StampGuard(node_config.time_jump_threshold)
+        self._ownship_guard = StampGuard(node_config.time_jump_threshold)
+        self._node_config, self._types, self._log = node_config, types, log
+        self._published = instrument.tracker.tracks
+        self._forget()
+
+    def _forget(self) -> None:
+        """Be as after a start, but for the tracks that must be reported as deleted."""
+        self.guard.reset()
+        self._ownship_guard.reset()
+        self.platform = Platform.empty(self._node_config.ownship_timeout)
+        self.frame = TrackingFrame(
+            self._node_config.tracking_frame, self.instrument.is_mounted, self._log.info
+        )
+        self.stamp: Any = None  # of the last plots that were used
+        self._mapping: dict[str, str] = {}
+
+    @property
+    def counts(self) -> dict[str, InputCount]:
+        """What happened to the messages of each topic."""
+        return self.ledger.counts
+
+    @property
+    def tracks(self) -> Tracks:
+        """All tracks as of the last message."""
+        return self.instrument.tracker.tracks
+
+    def reset(self) -> None:
+        """Start anew: tracks, clock, frames and own ship are forgotten."""
+        self.instrument.tracker.reset()
+        self._forget()
+
+    def header(self) -> Any:
+        """Return a header with the stamp of the last plots, in the tracking frame."""
+        stamp = self._types.Time(sec=self.stamp.sec, nanosec=self.stamp.nanosec)
+        return self._types.Header(stamp=stamp, frame_id=self.frame.name)
+
+    def plots(self, msg: Any, received: float) -> Any | None:
+        """
+        Return the track table after this message, None if the message was refused.
+
+        Parameters
+        ----------
+        msg : PointCloud2
+            Plots of a radar, marks of a sonar.
+        received : float
+            When it came, by a clock that never goes back [s].
+
+        """
+        try:
+            return self._follow(msg, received)
+        except BadMessage as error:
+            self.ledger.refuse(self.instrument.topic, error.reason, error)
+        except StalePlatform as error:
+            self.ledger.refuse(self.instrument.topic, 'own ship stale', error)
+        return None
+
+    def _follow(self, msg: Any, received: float) -> Any:
+        reading = self.instrument.read(msg, self._mapping)
+        self.frame.check_plots(reading.plots.frame)
+        platform = self.platform if self.instrument.uses_platform(self.frame) else None
+        if platform is not None:  # before the guard takes the stamp
+            platform.at(np.append(reading.plots.time, reading.plots.stamp))
+        if self.guard.accept(reading.plots.stamp, received):
+            self._log.warning(
+                f'time moved to {reading.plots.stamp:.3f} (a recording that began anew?): '
+                'tracking starts anew'
+            )
+            self.instrument.tracker.reset()
+        tracks = self.instrument.track(reading.plots, platform, self.frame)
+        self._use(reading)
+        self.stamp = msg.header.stamp
+        table = self.instrument.to_table(self._published, self.header())
+        self._published = tracks
+        return table
+
+    def _use(self, reading: Reading[Any]) -> None:
+        """Count the rows of a message that is accepted, and say once which fields are used."""
+        rows = len(reading.plots)
+        self.ledger.use(self.instrument.topic, rows, reading.dropped, reading.doubtful)
+        if rows and not self._mapping:
+            used = ', '.join(f'{ours}: {theirs}' for ours, theirs in reading.mapping.items())
+            self._log.info(f'fields of the {self.instrument.topic} in use: {used}')
+            if reading.note:
+                self._log.warning(reading.note)
+            self._mapping = reading.mapping
+
+    def ownship(self, msg: Any, received: float) -> None:
+        """Take one odometry of the platform."""
+        try:
+            sample = to_platform(msg)
+            if self.frame.check_ownship(msg.header.frame_id.lstrip('/')):
+                self._log.warning('own ship appeared: tracking starts anew in its frame')
+                self.instrument.tracker.reset()
+            if self._ownship_guard.accept(float(sample.time[0]), received):
+                self.platform = Platform.empty(self._node_config.ownship_timeout)
+            self.platform = self.platform.add(sample)
+        except BadMessage as error:
+            self.ledger.refuse('ownship', error.reason, error)
+
+    def acquire(self, msg: Any) -> None:
+        """Start a track where a user points."""
+        try:
+            position = np.array([msg.point.x, msg.point.y, msg.point.z])
+            if self.stamp is None:
+                raise BadMessage('no scan yet', f'no {self.instrument.topic} have come yet')
+            self.frame.check_point(msg.header.frame_id.lstrip('/'))
+            if not (np.abs(position) <= self.instrument.reach).all():
+                raise BadMessage(
+                    'bad point', f'point is {position}, farther than {self.instrument.reach:g} m'
+                )
+            track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
+            self._log.info(f'track {track_id} started at {position} m')
+        except BadMessage as error:
+            self.ledger.refuse('acquire', error.reason, error)
+
+    def cancel(self, track_id: int) -> None:
+        """Drop one track."""
+        if self.instrument.tracker.drop_track(track_id):
+            self._log.info(f'track {track_id} dropped')
+        else:
+            self.ledger.warn('cancel', f'cancel: there is no track {track_id}')

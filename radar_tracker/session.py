@@ -1,0 +1,114 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the messages of a radar are, and how its tracks are told and drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Set
+from typing import Any
+
+from msg_adapters.bad_message import BadMessage
+from msg_adapters.bodies import Bodies
+from msg_adapters.frames import TrackingFrame
+from msg_adapters.ledger import Log
+from msg_adapters.markers import to_markers
+from msg_adapters.message_types import MessageTypes
+from msg_adapters.node_config import NodeConfig
+from msg_adapters.plots import to_plots
+from msg_adapters.reading import Reading
+from msg_adapters.session import Session
+from msg_adapters.tracks import from_tracks, kinematics, to_bodies
+from msg_adapters.trails import Trails
+from radar_tracker.config import MountConfig, RadarTrackerConfig
+from radar_tracker.tracker import RadarTracker
+from tracking_core.batches import Plots, Tracks
+from tracking_core.platform import Platform
+from tracking_core.rows import take
+
+
+def radar_session(
+    config: RadarTrackerConfig, node_config: NodeConfig, types: MessageTypes, log: Log
+) -> Session:
+    """Return what a radar node or a replay drives."""
+    return Session(RadarInstrument(config, node_config, types), node_config, types, log)
+
+
+class RadarInstrument:
+    """
+    A radar and its tracker.
+
+    Parameters
+    ----------
+    config : RadarTrackerConfig
+        Of the tracker.
+    node_config : NodeConfig
+        Of the messages.
+    types : MessageTypes
+        Classes of the messages that come out.
+
+    """
+
+    topic = 'plots'
+
+    def __init__(
+        self, config: RadarTrackerConfig, node_config: NodeConfig, types: MessageTypes
+    ) -> None:
+        self.tracker = RadarTracker(config)
+        self._overrides, self._types = vars(node_config.fields), types
+        self._trails = Trails.empty(node_config.markers.history)
+
+    @property
+    def is_mounted(self) -> bool:
+        """Whether the mount is not the platform's origin."""
+        return self.tracker.config.sensor.mount != MountConfig()
+
+    @property
+    def reach(self) -> float:
+        """The radar's range [m]."""
+        return self.tracker.config.sensor.range_max
+
+    def read(self, msg: Any, mapping: Mapping[str, str]) -> Reading[Plots]:
+        """Return the plots of a message, all polar or all Cartesian from first to last."""
+        config = self.tracker.config
+        reading = to_plots(msg, config.sensor, config.max_plots, self._overrides)
+        both = mapping and len(reading.plots)
+        if both and ('azimuth' in reading.mapping) != ('azimuth' in mapping):
+            raise BadMessage(
+                'fields changed',
+                f'fields were {sorted(mapping.values())}, '
+                f'now {sorted(reading.mapping.values())}: polar and Cartesian plots do not mix',
+            )
+        return reading
+
+    def uses_platform(self, frame: TrackingFrame) -> bool:
+        """Return whether plots must be brought into the tracking frame."""
+        return frame.needs_platform
+
+    def track(self, plots: Plots, platform: Platform | None, frame: TrackingFrame) -> Tracks:
+        """Follow all contacts through the plots of one message."""
+        return self.tracker.track(plots, platform)
+
+    def to_table(self, previous: Tracks, header: Any) -> Any:
+        """Return the track table."""
+        config = self.tracker.config
+        return from_tracks(
+            previous, self.tracker.tracks, header, self._types, output=config.output,
+            gate_probability=config.gate.probability,
+        )  # fmt: skip
+
+    def to_bodies(self) -> Bodies:
+        """Return the confirmed tracks."""
+        tracks = self.tracker.tracks
+        return to_bodies(take(tracks, tracks.confirmed), self.tracker.config.output)
+
+    def follow(self) -> None:
+        """Lengthen the trails."""
+        tracks, output = self.tracker.tracks, self.tracker.config.output
+        self._trails = self._trails.extend(tracks.id, kinematics(tracks, output)[0][:, :3])
+
+    def draw(self, shown: Set[int], header: Any, markers: Any) -> Any:
+        """Return the MarkerArray of the tracks."""
+        return to_markers(
+            self.tracker.tracks, self._trails, shown, header, self._types,
+            output=self.tracker.config.output, lead_time=markers.lead_time,
+        )  # fmt: skip

@@ -1,0 +1,88 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Frames are learnt or refused, never guessed in silence."""
+
+import pytest
+
+from msg_adapters.bad_message import BadMessage
+from msg_adapters.frames import TrackingFrame
+
+
+@pytest.fixture
+def said():
+    """Collect what is announced."""
+    return []
+
+
+def test_stationary_sensor_gives_its_frame_and_says_so_once(said):
+    """With nothing set, the frame of the plots is the tracking frame."""
+    frame = TrackingFrame('', False, said.append)
+    frame.check_plots('radar')
+    frame.check_plots('radar')
+    assert frame.name == 'radar'
+    assert not frame.needs_platform
+    assert len(said) == 1
+
+
+def test_data_in_the_tracking_frame_are_used_as_they_are(said):
+    """Also when own ship is known."""
+    frame = TrackingFrame('map', False, said.append)
+    frame.check_ownship('map')
+    frame.check_plots('map')
+    assert not frame.needs_platform
+    assert said == []
+
+
+def test_strange_frame_is_refused_with_both_names_and_ways_out(said):
+    """The user reads what to do."""
+    frame = TrackingFrame('map', False, said.append)
+    with pytest.raises(BadMessage, match=r"'radar', expected 'map'.*ownship.*sensor.mount"):
+        frame.check_plots('radar')
+
+
+def test_plots_may_not_change_their_frame(said):
+    """One node, one sensor."""
+    frame = TrackingFrame('', False, said.append)
+    frame.check_plots('radar')
+    with pytest.raises(BadMessage, match="'other', expected 'radar'"):
+        frame.check_plots('other')
+
+
+def test_own_ship_names_the_tracking_frame(said):
+    """A sensor on a platform is tracked in the frame of the odometry."""
+    frame = TrackingFrame('', False, said.append)
+    assert not frame.check_ownship('odom')
+    frame.check_plots('radar')
+    assert frame.name == 'odom'
+    assert frame.needs_platform
+    with pytest.raises(BadMessage, match="'map', the tracking frame is 'odom'"):
+        frame.check_ownship('map')
+
+
+def test_own_ship_that_comes_late_starts_anew_in_its_frame(said):
+    """What was taken to stand still moves after all: said, and begun anew once."""
+    frame = TrackingFrame('', False, said.append)
+    frame.check_plots('radar')
+    assert frame.check_ownship('odom')
+    assert not frame.check_ownship('odom')
+    frame.check_plots('radar')
+    assert frame.name == 'odom'
+    assert frame.needs_platform
+    assert len(said) == 2
+
+
+def test_mount_brings_a_stationary_sensor_into_the_tracking_frame(said):
+    """The mount is given in a named frame, or refused."""
+    frame = TrackingFrame('map', True, said.append)
+    frame.check_plots('radar')
+    assert not frame.needs_platform
+    with pytest.raises(BadMessage, match='set tracking_frame'):
+        TrackingFrame('', True, said.append).check_plots('radar')
+
+
+def test_points_must_be_in_the_tracking_frame(said):
+    """A click in another frame would start a track somewhere else."""
+    frame = TrackingFrame('map', False, said.append)
+    frame.check_point('map')
+    with pytest.raises(BadMessage, match="'radar', the tracking frame is 'map'"):
+        frame.check_point('radar')

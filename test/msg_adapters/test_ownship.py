@@ -1,0 +1,61 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Own ship's odometry is read as REP 103 and 105 say, or refused."""
+
+import numpy as np
+import pytest
+
+from msg_adapters.bad_message import BadMessage
+from msg_adapters.ownship import to_platform
+
+
+def odometry(types, yaw=0.0, forward=5.0, scale=1.0, x=10.0, covariance=None):
+    """Return an Odometry message."""
+    c = np.diag([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]).ravel() if covariance is None else covariance
+    pose = types.Pose(
+        position=types.Point(x=x, y=20.0, z=0.0),
+        orientation=types.Quaternion(
+            x=0.0, y=0.0, z=scale * np.sin(0.5 * yaw), w=scale * np.cos(0.5 * yaw)
+        ),
+    )
+    zero = types.Vector3(x=0.0, y=0.0, z=0.0)
+    twist = types.Twist(linear=types.Vector3(x=forward, y=0.0, z=0.0), angular=zero)
+    return types.Odometry(
+        header=types.header(7.5, 'map'),
+        child_frame_id='base_link',
+        pose=types.PoseWithCovariance(pose=pose, covariance=c),
+        twist=types.TwistWithCovariance(twist=twist, covariance=c),
+    )
+
+
+def test_twist_is_turned_from_the_child_frame(types):
+    """Forward of a ship that heads north is north."""
+    sample = to_platform(odometry(types, yaw=np.pi / 2.0))
+    np.testing.assert_allclose(sample.velocity, [[0.0, 5.0, 0.0]], atol=1e-12)
+    np.testing.assert_allclose(sample.position, [[10.0, 20.0, 0.0]])
+    np.testing.assert_allclose(sample.position_covariance[0], np.diag([1.0, 2.0, 3.0]))
+    np.testing.assert_allclose(sample.yaw_variance, [0.3])
+    np.testing.assert_allclose(sample.time, [7.5])
+
+
+@pytest.mark.parametrize(
+    ('changes', 'match'),
+    [
+        ({'scale': 0.0}, 'pose.pose.orientation has length 0, not 1'),
+        ({'x': np.nan}, 'pose.pose.position is nan'),
+        ({'x': 1e300}, 'pose.pose.position is 1e'),
+        ({'forward': np.inf}, 'twist.twist.linear is inf'),
+    ],
+)
+def test_pose_that_is_none_is_refused(types, changes, match):
+    """The field and its value are named."""
+    with pytest.raises(BadMessage, match=match):
+        to_platform(odometry(types, **changes))
+
+
+@pytest.mark.parametrize('value', [np.nan, -1.0, np.inf])
+def test_covariance_that_is_none_counts_as_zero(types, value):
+    """Drivers that do not know fill in anything."""
+    sample = to_platform(odometry(types, covariance=np.full(36, value)))
+    assert not sample.position_covariance.any()
+    assert not sample.yaw_variance.any()

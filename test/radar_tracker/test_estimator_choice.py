@@ -1,0 +1,155 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every estimator of the menu in the radar tracker, by its parameter."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import islice
+
+import numpy as np
+from numpy.testing import assert_allclose
+import pytest
+
+from benchmarks.real_data import judge, preset, run
+from benchmarks.recordings import air_scene, data_folder
+from msg_adapters.tracks import kinematics, track_columns
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.estimator_config import RADAR_ESTIMATORS
+from radar_tracker.tracker import RadarTracker
+from studies.scenes import messages
+from tracking_core.batches import Plots
+from tracking_core.config import with_values
+from tracking_core.estimators import AdaptiveAlphaBeta, ESTIMATORS, FuzzyAlphaBeta, ImmAlphaBeta
+from tracking_tools.scenarios import build
+
+TEN_MINUTES = 60  # turns
+PERIOD = 4.0
+every_estimator = pytest.mark.parametrize('name', ESTIMATORS)
+
+
+def test_parameter_offers_the_menu() -> None:
+    """The choices of `estimator` are the estimators that there are."""
+    assert tuple(ESTIMATORS) == RADAR_ESTIMATORS
+
+
+@every_estimator
+def test_estimator_holds_real_aircraft(name: str) -> None:
+    """The first 10 minutes of the en-route scene: held 90 % of the time at least, no ghosts."""
+    if not data_folder().is_dir():
+        pytest.skip('the shared recordings are not beside the project')
+    recording = air_scene(data_folder()).part(0, TEN_MINUTES)
+    rows, _ = run(recording, preset(recording.preset, estimator=name))
+    result = judge(recording, rows)
+    assert result.continuity.held >= 0.9
+    assert result.continuity.ghosts == 0
+
+
+def climbing(turn: int, rng: np.random.Generator, range_rate: bool) -> Plots:
+    """Two aircraft at 150 m/s, one climbs; clutter; another plot lacks elevation each turn."""
+    time = PERIOD * turn
+    x = np.array([-20_000.0, -15_000.0]) + 150.0 * time
+    y, z = np.array([15_000.0, 25_000.0]), np.array([600.0, 300.0 + 10.0 * time])
+    ground = np.hypot(x, y)
+    distance, rows = np.hypot(ground, z), 2 + 3
+    polar = np.empty((rows, 3))
+    polar[:2] = np.stack([distance, np.arctan2(y, x), np.arctan2(z, ground)], axis=1)
+    polar[:2] += rng.normal(0.0, [50.0, 0.00175, 0.0026], (2, 3))
+    polar[2:] = rng.uniform([5e3, -3.0, 0.0], [6e4, 3.0, 0.4], (3, 3))
+    polar[turn % 4, 2] = np.nan
+    columns = {'elevation': polar[:, 2]}
+    if range_rate:
+        closing = (150.0 * x + np.array([0.0, 10.0]) * z) / distance
+        columns['range_rate'] = np.concatenate(
+            [closing + rng.normal(0.0, 2.0, 2), rng.uniform(-300.0, 300.0, 3)]
+        )
+    plots = Plots.polar(np.full(rows, time), polar[:, 0], polar[:, 1], **columns)
+    return replace(plots, stamp=time)
+
+
+@pytest.mark.parametrize('range_rate', [False, True], ids=['positions', 'range rates'])
+@every_estimator
+def test_estimator_follows_climbing_aircraft(name: str, range_rate: bool) -> None:
+    """3-D radar with clutter and absent elevations: both are held, and published as they are."""
+    rng = np.random.default_rng(6)
+    config = with_values(
+        RadarTrackerConfig(),
+        {'estimator': name, 'motion.horizontal.acceleration_sd': [0.5, 10.0],
+         'motion.vertical.acceleration_sd': [0.5, 5.0], 'sensor.dimensions': 3},
+    )  # fmt: skip
+    tracker = RadarTracker(config)
+    nothing = tracker.tracks
+    for turn in range(25):
+        tracks = tracker.track(climbing(turn, rng, range_rate))
+    state, covariance = kinematics(tracks, 'mmse')
+    confirmed = tracks.confirmed & (tracks.hits > 15)
+    assert confirmed.sum() == 2
+    at = np.argsort(state[confirmed, 1])
+    assert_allclose(state[confirmed][at, 1], [15_000.0, 25_000.0], atol=250.0)
+    assert_allclose(state[confirmed][at, 3], 150.0, atol=25.0)
+    assert (np.linalg.eigvalsh(covariance[confirmed]) > 0.0).all()
+    columns = track_columns(nothing, tracks, 0.0, 'mmse', 0.997)
+    assert ((columns['manoeuvre_probability'] >= 0.0) & (columns['p_0'] >= 0.0)).all()
+
+
+@every_estimator
+def test_estimator_follows_holding_aircraft_with_a_turning_antenna(name: str) -> None:
+    """Terminal area, 3-D, an antenna that turns, 25 false plots a turn: most are confirmed."""
+    config = preset('terminal_radar', estimator=name)
+    tracker, near = RadarTracker(config), 0
+    scans = list(islice(messages(build('terminal'), np.random.default_rng(5)), 40))
+    for plots, _ in scans:
+        tracks = tracker.track(plots)
+    state, _ = kinematics(tracks, 'mmse')
+    places = scans[-1][1].truth.position
+    for place in places:
+        off = np.linalg.norm(state[tracks.confirmed, :2] - place[:2], axis=1)
+        near += off.min(initial=np.inf) < 1500.0
+    assert near >= 0.75 * len(places)
+    assert tracker.state.report.broken == 0
+
+
+def test_parameters_reach_the_estimators() -> None:
+    """Gains, reading, detector, ramp and fuzzy sets of the parameters are those that are used."""
+    values = {
+        'alpha_beta.alpha': [0.2, 0.5, 0.8],
+        'alpha_beta.covariance': 'recursion',
+        'alpha_beta.stay_probability': 0.8,
+        'alpha_beta.adaptive.false_alarm': 0.02,
+        'alpha_beta.adaptive.ramp': 4,
+        'alpha_beta.adaptive.restartable': True,
+        'alpha_beta.fuzzy.false_alarm': 0.05,
+        'alpha_beta.fuzzy.innovation_peaks': [0.0, 3.0],
+        'alpha_beta.fuzzy.gain_peaks': [0.1, 0.9],
+        'alpha_beta.fuzzy.rules': [0, 1, 1, 1],
+    }
+
+    def made(name):
+        config = with_values(RadarTrackerConfig(), {'estimator': name, **values})
+        return RadarTracker(config)._tracker.setup.planes[0].estimator
+
+    gains = (0.2, 0.5, 0.8)
+    assert made('imm_alpha_beta') == ImmAlphaBeta(gains, 2, 'recursion', 0.8)
+    adaptive = AdaptiveAlphaBeta(gains, 2, 'recursion', 0.02, 4, True, 0.8)
+    assert made('adaptive_alpha_beta') == adaptive
+    fuzzy = made('fuzzy_alpha_beta')
+    assert fuzzy == FuzzyAlphaBeta(gains, 2, 'recursion', 0.05, fuzzy.rules, 0.8)
+    assert fuzzy.rules.table == ((0, 1), (1, 1))
+    assert fuzzy.rules.conclusion.peaks == (0.1, 0.9)
+
+
+@pytest.mark.parametrize(
+    ('values', 'match'),
+    [
+        ({'alpha_beta.alpha': [0.3, 1.0]}, r'AlphaBetaConfig.alpha must be in \[0.01, 0.99\]'),
+        ({'alpha_beta.alpha': []}, 'must have one value per mode'),
+        ({'alpha_beta.covariance': 'joseph'}, 'must be one of steady_state, recursion'),
+        ({'alpha_beta.fuzzy.rules': [0, 1]}, 'must have 4 x 4 entries'),
+        ({'alpha_beta.fuzzy.gain_peaks': [0.5, 0.2]}, 'must be two or more, rising'),
+        ({'estimator': 'kalman'}, 'must be one of markov_jump, markov_jump_joint'),
+    ],
+)
+def test_bad_parameters_are_refused(values, match: str) -> None:
+    """The message names the parameter and what is allowed."""
+    with pytest.raises(ValueError, match=match):
+        with_values(RadarTrackerConfig(), values)

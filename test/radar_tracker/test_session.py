@@ -1,0 +1,104 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What happens to messages without a ROS graph: good ones track, bad ones hurt nobody."""
+
+from dataclasses import replace
+import logging
+
+import numpy as np
+import pytest
+
+from msg_adapters.table import from_columns, to_columns
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.node_config import radar_node_config
+from radar_tracker.session import radar_session
+
+message_types = pytest.importorskip('msg_adapters.message_types')
+pytest.importorskip('rosbags')
+TYPES = message_types.rosbags_types()
+PERIOD = 4.0
+ODD = [np.nan, np.inf, -np.inf, -1.0, 0.0, 1e-300, 1e30, 1e300, 7.0, 500.0]
+
+
+def session(**changes):
+    """Return a session with default parameters, some changed."""
+    log = logging.getLogger('session')
+    return radar_session(RadarTrackerConfig(), replace(radar_node_config(), **changes), TYPES, log)
+
+
+def scan(number):
+    """Return the plots of five contacts on straight courses."""
+    rng = np.random.default_rng(number)
+    time, start = PERIOD * number, np.array([20e3, -30e3, 40e3, -50e3, 60e3])
+    x, y = start + 120.0 * time, 0.5 * start[::-1] - 80.0 * time
+    azimuth = np.arctan2(y, x) + rng.normal(0.0, 1e-3, 5)
+    columns = {'range': np.hypot(x, y) + rng.normal(0.0, 30.0, 5), 'azimuth': azimuth}
+    return from_columns(columns, 1000.0 + time, 'radar', TYPES)
+
+
+def follow(radar, numbers):
+    """Feed scans; return the ids of the confirmed tracks in the last table."""
+    for number in numbers:
+        columns = to_columns(radar.plots(scan(number), 0.0), 10_000)
+    return set(columns['id'][columns['status'] == 1].tolist())
+
+
+def hostile(rng, stamp):
+    """Return a message with odd names, values, rows, stamp and frame."""
+    names = rng.choice(
+        ['range', 'azimuth', 'x', 'y', 'z', 'elevation', 'time', 'range_sd', 'azimuth_sd', 'v'],
+        rng.integers(1, 8), replace=False,
+    )  # fmt: skip
+    rows = rng.integers(0, 6)
+    columns = {str(name): rng.choice(ODD, rows) for name in names}
+    wrong = stamp + rng.choice([1e9, -1e9, 3600.0, -3600.0, -PERIOD - 1.0, -PERIOD])
+    return from_columns(columns, wrong, str(rng.choice(['radar', '', 'other'])), TYPES)
+
+
+@pytest.mark.parametrize('seed', range(5))
+def test_hostile_messages_between_scans_change_nothing(seed):
+    """All five tracks live through sixty scans with a bad message before each."""
+    rng, radar = np.random.default_rng(seed), session()
+    before = follow(radar, range(12))
+    assert len(before) == 5
+    for number in range(12, 72):
+        radar.plots(hostile(rng, 1000.0 + PERIOD * number), 0.0)
+        after = follow(radar, [number])
+    assert after == before
+
+
+def test_odd_rows_within_good_scans_never_raise():
+    """Rows of odd values are dropped or tracked, but nothing breaks."""
+    rng, radar = np.random.default_rng(1), session()
+    for number in range(60):
+        columns = {
+            name: rng.choice([*ODD, 0.1, 1e3, 2e4], 400)
+            for name in ('range', 'azimuth', 'elevation', 'range_rate', 'snr', 'time', 'range_sd')
+        }
+        with np.errstate(all='raise', under='ignore'):
+            msg = from_columns(columns, 1000.0 + PERIOD * number, 'radar', TYPES)
+            table = radar.plots(msg, 0.0)
+        assert table is not None  # some of the rows are good
+
+
+def test_refused_first_message_decides_nothing():
+    """A Cartesian message in a strange frame does not make later polar ones wrong."""
+    radar = session(tracking_frame='radar')
+    strange = from_columns({'x': np.ones(1), 'y': np.ones(1)}, 1.0, 'other', TYPES)
+    assert radar.plots(strange, 0.0) is None
+    assert len(follow(radar, range(12))) == 5
+
+
+def test_stamp_of_the_plots_is_the_stamp_of_the_tracks():
+    """To the nanosecond, so that consumers can pair them."""
+    msg = scan(0)
+    msg.header.stamp.sec, msg.header.stamp.nanosec = 1_700_000_000, 123_456_789
+    table = session().plots(msg, 0.0)
+    assert (table.header.stamp.sec, table.header.stamp.nanosec) == (1_700_000_000, 123_456_789)
+
+
+def test_same_messages_give_the_same_bytes():
+    """Nothing depends on when or how often it runs."""
+    tables = [[bytes(radar.plots(scan(n), 0.0).data) for n in range(12)] for radar in
+              (session(), session())]  # fmt: skip
+    assert tables[0] == tables[1]
