@@ -1,0 +1,192 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which parameters does the sonar tracker have? Read this file as the table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from sonar_tracker.motion_config import MotionConfig
+from sonar_tracker.ranging_config import RangingConfig
+from tracking_core.association import ASSOCIATORS
+from tracking_core.config import parameter, validate
+from tracking_core.estimators import BEARING_ESTIMATORS
+from tracking_core.lifecycle import LIFECYCLES
+from tracking_core.lifecycle_config import (
+    ErrorRatioConfig,
+    ExistenceConfig,
+    GateConfig,
+    MergeConfig,
+    MOfNConfig,
+)
+
+# One mark says little among false ones: tracks must be let live until they have some.
+_DROP = 1e-4
+_ONE_MODE = ('kalman_decoupled', 'finite_memory')
+
+
+@dataclass(frozen=True)
+class MountConfig:
+    """Where the sonar sits on its platform."""
+
+    x: float = parameter(0.0, unit='m', doc='forward of the platform origin')
+    y: float = parameter(0.0, unit='m', doc='left of the platform origin')
+    yaw: float = parameter(0.0, unit='rad', doc='anticlockwise from the platform x axis')
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class SensorConfig:
+    """What the sonar hears, how well, and where."""
+
+    array: str = parameter(
+        'omnidirectional', unit='', choices=('omnidirectional', 'linear'),
+        doc='a linear array along the x axis of the sensor is blurred by 1 / sin(bearing) and '
+        'cannot tell left from right',
+    )  # fmt: skip
+    bearing_sd: float = parameter(
+        0.01, unit='rad', doc='bearing noise of marks that do not tell theirs', low=1e-6, high=0.5
+    )
+    bearing_sd_min: float = parameter(
+        0.0, unit='rad', doc='marks that tell less are not believed', low=0.0, high=0.5
+    )
+    detection_probability: float = parameter(
+        0.9, unit='1', doc='chance that a cycle gives a mark of a contact', low=0.01, high=0.999,
+        live=True,
+    )  # fmt: skip
+    bearing_resolution: float = parameter(
+        0.0, unit='rad', low=0.0, high=1.0,
+        doc='contacts nearer than this give one mark (linear array: at broadside); '
+        '0: every contact gives its own',
+    )  # fmt: skip
+    azimuth_convention: str = parameter(
+        'enu', unit='', choices=('enu', 'compass', 'clockwise'),
+        doc='bearings anticlockwise from x, clockwise from north (y), or clockwise from x (ahead)',
+    )  # fmt: skip
+    sector_centre: float = parameter(
+        0.0, unit='rad', doc='middle of what the sonar hears, sensor axes', low=-np.pi, high=np.pi
+    )
+    sector_width: float = parameter(
+        2.0 * np.pi, unit='rad', doc='width of what the sonar hears', low=1e-3, high=2.0 * np.pi
+    )
+    mount: MountConfig = field(default_factory=MountConfig)
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class InitiationConfig:
+    """How tracks start from marks that no track claimed."""
+
+    method: str = parameter(
+        'two_point', unit='', choices=('two_point', 'one_point'),
+        doc='from two marks of successive cycles, or from one with a rate prior',
+    )  # fmt: skip
+    rate_max: float = parameter(
+        0.01, unit='rad/s', doc='fastest bearing to start on', low=1e-6, live=True
+    )
+    rate_sd: float = parameter(
+        1e-3, unit='rad/s', doc='usual bearing rate of new contacts; 0: no prior', low=0.0,
+        live=True,
+    )  # fmt: skip
+    memory: float = parameter(
+        2.5, unit='looks', doc='how long an unclaimed mark may wait for its second', low=1.0,
+        high=10.0, live=True,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class UnresolvedConfig:
+    """What is known of marks that belong to more than one contact."""
+
+    softness: float = parameter(
+        0.3, unit='1', low=1e-3, high=1.0, live=True,
+        doc='sd of the limit of resolution, as a part of it',
+    )  # fmt: skip
+    spread: float = parameter(
+        1.0, unit='1', low=0.0, high=1000.0, live=True,
+        doc='variance of a common mark about the mean by level, as a part of the spread of the '
+        'contacts',
+    )  # fmt: skip
+    interference: float = parameter(
+        0.1, unit='1', low=0.0, high=1.0, live=True,
+        doc='sd of marks of contacts near the limit of resolution, as a part of it: each mark '
+        'is pulled by the other contact',
+    )  # fmt: skip
+    capture: float = parameter(
+        0.3, unit='1', low=1e-6, high=0.999, live=True,
+        doc='chance that the common mark is that of one contact, which drowns the others',
+    )  # fmt: skip
+    least_chance: float = parameter(
+        0.01, unit='1', low=1e-6, high=0.5, live=True,
+        doc='contacts that are less likely to have one mark are taken as apart',
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
+class SonarTrackerConfig:
+    """All parameters of the sonar tracker."""
+
+    sensor: SensorConfig = field(default_factory=SensorConfig)
+    motion: MotionConfig = field(default_factory=MotionConfig)
+    gate: GateConfig = field(default_factory=GateConfig)
+    existence: ExistenceConfig = field(default_factory=lambda: ExistenceConfig(drop=_DROP))
+    m_of_n: MOfNConfig = field(default_factory=lambda: MOfNConfig(hits=4, looks=6))
+    error_ratio: ErrorRatioConfig = field(default_factory=ErrorRatioConfig)
+    initiation: InitiationConfig = field(default_factory=InitiationConfig)
+    unresolved: UnresolvedConfig = field(default_factory=UnresolvedConfig)
+    merge: MergeConfig = field(default_factory=lambda: MergeConfig(distance=2.0))
+    ranging: RangingConfig = field(default_factory=RangingConfig)
+    estimator: str = parameter(
+        'kalman', unit='', choices=tuple(BEARING_ESTIMATORS), doc='filter of every track'
+    )
+    output: str = parameter(
+        'mmse', unit='', choices=('mmse', 'map'), live=True,
+        doc='published state: the mixture of the modes, or the most probable mode',
+    )  # fmt: skip
+    association: str = parameter(
+        'jpda', unit='', choices=tuple(ASSOCIATORS), doc='how marks are shared among tracks',
+        live=True,
+    )  # fmt: skip
+    lifecycle: str = parameter(
+        'existence', unit='', choices=tuple(LIFECYCLES), doc='what confirms and deletes tracks'
+    )
+    clutter_density: float = parameter(
+        0.0, unit='1/rad', low=0.0, live=True, doc='false marks of one cycle; 0: estimated'
+    )
+    max_tracks: int = parameter(
+        1000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000
+    )
+    max_plots: int = parameter(
+        5000, unit='1', doc='rows used of one message', low=1, high=1_000_000
+    )
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits, and what does not go together."""
+        validate(self)
+        modes = len(self.motion.sojourn_time)
+        if self.estimator in _ONE_MODE and modes > 1:
+            raise ValueError(
+                f'SonarTrackerConfig.motion must have one mode with the estimator '
+                f'{self.estimator}, got {modes}'
+            )
+        if self.sensor.bearing_resolution > 0.0 and self.association != 'jpda':
+            raise ValueError(
+                'SonarTrackerConfig.association must be jpda where sensor.bearing_resolution is '
+                f'above 0, got {self.association}'
+            )

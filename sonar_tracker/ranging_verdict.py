@@ -1,0 +1,93 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Is the range observable? From the information that the fit has, and from its residuals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import chdtrc, ndtr
+
+from sonar_tracker.ranging_config import RangingConfig
+from sonar_tracker.ranging_fit import Fit
+from sonar_tracker.ranging_model import courses, distances, Legs
+from tracking_core.batches import Bools, Floats, Ints
+from tracking_core.linalg import inverse, symmetrise
+
+_UNKNOWNS = 4
+_WORST_CONDITION = 1e10  # of the information; beyond it the inverse is rounding
+_EDGE = 1e-3  # a range as near to its limits as this has been stopped there
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the fits of T tracks are worth."""
+
+    state: Floats  # (T, 4) x, y, vx, vy at the time of the newest mark [m, m/s]
+    covariance: Floats  # (T, 4, 4) of a contact on a straight course, inverse of the information
+    observable: Bools  # (T,)
+    bent: Bools  # (T,) surely no straight course
+
+
+def may_tell(legs: Legs, config: RangingConfig) -> Bools:
+    """Return whether even the nearest contact's range could be observed (T,)."""
+    information = np.einsum('tk,tkx->t', legs.weight, legs.aside**2) * legs.reach**2
+    return np.asarray(information * config.relative_sd**2 > config.range_min**2)
+
+
+def judge(best: Fit, legs: Legs, config: RangingConfig) -> Verdict:
+    """
+    Say which ranges are observable.
+
+    A range is, if the information is well conditioned, if the relative sd of the range is small,
+    even if the contact strays from its course a little, and if the residuals are as small and as
+    white as those of a straight course.
+    """
+    scale = 1.0 / np.sqrt(np.maximum(np.einsum('taa->ta', best.information), 1e-300))
+    unit = best.information * scale[:, :, None] * scale[:, None, :]
+    sound = np.linalg.cond(unit) < _WORST_CONDITION
+    unit = np.where(sound[:, None, None], unit, np.eye(_UNKNOWNS))
+    bound = inverse(unit)[0] * scale[:, :, None] * scale[:, None, :]
+    range_variance = bound[:, 3, 3] + _straying(best, legs, bound, config.velocity_noise)
+    observable = sound & (range_variance < (config.relative_sd * best.state[:, 3]) ** 2)
+
+    distance = legs.reach / best.state[:, 3]
+    observable &= distance > (1.0 + _EDGE) * config.range_min
+    observable &= distance < (1.0 - _EDGE) * config.range_max
+    chance = _chance(best, (legs.weight > 0.0).sum(axis=1))
+    state, jacobian = courses(best.state, legs)
+    return Verdict(
+        state=state,
+        covariance=symmetrise(jacobian @ bound @ np.swapaxes(jacobian, 1, 2)),
+        observable=observable & (chance > config.false_alarm),
+        # A false alarm would cost the leg before the manoeuvre: be twice as sure.
+        bent=chance < config.false_alarm**2,
+    )
+
+
+def _chance(best: Fit, count: Ints) -> Floats:
+    """Return how probable residuals as large or as even as these are on a straight course (T,)."""
+    size, evenness = chdtrc(count - _UNKNOWNS, best.chi_square), ndtr(-best.serial)
+    return np.asarray(2.0 * np.minimum(size, evenness))
+
+
+def _straying(best: Fit, legs: Legs, bound: Floats, velocity_noise: float) -> Floats:
+    """
+    Return what a randomly drifting velocity adds to the variance of u reach (T,).
+
+    The fit weights the marks as if there was none: its gain on the marks is bound slope^T.
+    """
+    distance, direction = distances(best.state, legs)
+    gain = (best.slope @ bound[:, :, 3:])[..., 0]
+    moved = gain * np.sqrt(legs.weight) / distance  # (T, K) change of u reach by metres across
+    age = -legs.tau * legs.span[:, None]
+    variance = np.zeros(len(age))
+    for part in (moved * np.cos(direction), moved * np.sin(direction)):
+        # The noise of s seconds ago moved each older mark by its age less s: in between
+        # neighbouring marks the sum of what it did is a straight line of s.
+        rate, start = np.cumsum(part, axis=1), np.cumsum(part * age, axis=1)
+        younger = np.append(age[:, 1:], np.zeros((len(age), 1)), axis=1)
+        old, young = start - rate * age, start - rate * younger
+        variance += ((age - younger) * (old**2 + old * young + young**2)).sum(axis=1) / 3.0
+    return np.asarray(velocity_noise**2 * variance)

@@ -1,0 +1,120 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What does the sonar measure, where does it listen, and how sure is it?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sonar_tracker.config import SensorConfig
+from tracking_core.batches import Bearings, Coverage, Floats, Scan
+from tracking_core.linalg import wrap_angle
+from tracking_core.platform import PlatformPose
+
+_LEAST_SINE = 0.05  # a linear array hears nothing of use nearer to its axis than 3 degrees
+
+
+@dataclass(frozen=True)
+class Sonar:
+    """Measurement model of one sonar; plots are bearings in tracking axes."""
+
+    config: SensorConfig
+    usual_sd: float = 0.0  # of the marks, 0: as configured [rad]
+
+    @property
+    def dimensions(self) -> int:
+        """One: the bearing."""
+        return 1
+
+    @property
+    def is_angular(self) -> bool:
+        """True: bearings come again every turn."""
+        return True
+
+    @property
+    def detection_probability(self) -> float:
+        """P_D."""
+        return self.config.detection_probability
+
+    @property
+    def range_rate_density(self) -> float:
+        """1: a sonar has no range rates."""
+        return 1.0
+
+    def noise(self, position: Floats, coverage: Coverage) -> Floats:
+        """Return the variance (T, 1, 1) expected at bearings (T, 1) [rad^2]."""
+        sd = self.usual_sd or self.config.bearing_sd
+        return np.full((len(position), 1, 1), sd**2)
+
+    def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
+        """Return 1 (T,): plots are bearings already."""
+        return np.ones(len(position))
+
+    def separation(self, first: Floats, second: Floats, coverage: Coverage) -> Floats:
+        """
+        Return how far contacts are apart in units of the resolution limit (P, 1).
+
+        Parameters
+        ----------
+        first, second : (P, 1) arrays
+            Bearings [rad].
+        coverage : Coverage
+            Of the look, whose sector is about the broadside of a linear array.
+
+        """
+        apart = wrap_angle(second - first)
+        if self.config.array == 'linear':
+            middle = first + 0.5 * apart - self._axis(coverage)
+            # The difference of the cosines, 2 sin(middle) sin(apart / 2).
+            apart = 2.0 * np.abs(np.sin(middle)) * np.sin(0.5 * apart)
+        return np.asarray(apart / self.config.bearing_resolution)
+
+    def reach(self, position: Floats, coverage: Coverage) -> Floats:
+        """Return from what distance (T, 1) on nothing is one mark with a contact here [rad]."""
+        limit = np.full(position.shape, self.config.bearing_resolution)
+        if self.config.array == 'linear':
+            sine = np.abs(np.sin(position - self._axis(coverage)))
+            limit = limit / np.maximum(sine, _LEAST_SINE)
+        return limit
+
+    def _axis(self, coverage: Coverage) -> float:
+        return coverage.sector_centre - self.config.sector_centre
+
+    def measure(self, marks: Bearings, pose: PlatformPose, coverage: Coverage) -> Scan:
+        """
+        Bring marks from sensor axes into tracking axes.
+
+        Parameters
+        ----------
+        marks : Bearings
+            M marks.
+        pose : PlatformPose
+            Platform at the times of the marks.
+        coverage : Coverage
+            What the cycle listened to.
+
+        """
+        M = len(marks)
+        bearing = wrap_angle(marks.bearing + pose.yaw + self.config.mount.yaw)
+        variance = self.mark_sd(marks) ** 2 + pose.yaw_variance
+        return Scan(
+            time=marks.time,
+            position=bearing[:, None],
+            covariance=variance[:, None, None],
+            range_rate=np.full(M, np.nan),
+            range_rate_variance=np.ones(M),
+            snr=marks.snr,
+            clutter_volume=np.ones(M),
+            sensor_position=pose.position,
+            sensor_velocity=pose.velocity,
+            coverage=coverage,
+            volume=self.config.sector_width,
+        )
+
+    def mark_sd(self, marks: Bearings) -> Floats:
+        """Return the sd of each mark (M,), the parameter's where the mark does not tell [rad]."""
+        told = np.isfinite(marks.bearing_sd) & (marks.bearing_sd > 0.0)
+        sd = np.where(told, marks.bearing_sd, self.config.bearing_sd)
+        return np.maximum(sd, self.config.bearing_sd_min)

@@ -1,0 +1,127 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the messages of a sonar are, and how its tracks are told and drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Set
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.bearing_tracks import from_bearing_tracks, located_bodies
+from msg_adapters.bearings import to_bearings
+from msg_adapters.bodies import Bodies
+from msg_adapters.fans import Fans, to_fan_markers
+from msg_adapters.frames import TrackingFrame
+from msg_adapters.ledger import Log
+from msg_adapters.message_types import MessageTypes
+from msg_adapters.node_config import NodeConfig
+from msg_adapters.reading import Reading
+from msg_adapters.session import Session
+from sonar_tracker.config import MountConfig, SonarTrackerConfig
+from sonar_tracker.tracker import bearing_states, SonarTracker
+from tracking_core.batches import Bearings, Tracks
+from tracking_core.linalg import wrap_angle
+from tracking_core.platform import Platform
+
+
+def sonar_session(
+    config: SonarTrackerConfig, node_config: NodeConfig, types: MessageTypes, log: Log
+) -> Session:
+    """Return what a sonar node or a replay drives."""
+    return Session(SonarInstrument(config, node_config, types), node_config, types, log)
+
+
+class SonarInstrument:
+    """
+    A sonar and its tracker.
+
+    Parameters
+    ----------
+    config : SonarTrackerConfig
+        Of the tracker.
+    node_config : NodeConfig
+        Of the messages.
+    types : MessageTypes
+        Classes of the messages that come out.
+
+    """
+
+    topic = 'bearings'
+
+    def __init__(
+        self, config: SonarTrackerConfig, node_config: NodeConfig, types: MessageTypes
+    ) -> None:
+        self.tracker = SonarTracker(config)
+        self._overrides, self._types = vars(node_config.fields), types
+
+    @property
+    def is_mounted(self) -> bool:
+        """Whether the mount is not the platform's origin."""
+        return self.tracker.config.sensor.mount != MountConfig()
+
+    @property
+    def reach(self) -> float:
+        """The farthest contact [m]."""
+        return self.tracker.config.ranging.range_max
+
+    def read(self, msg: Any, mapping: Mapping[str, str]) -> Reading[Bearings]:
+        """Return the marks of a message."""
+        config = self.tracker.config
+        return to_bearings(msg, config.sensor, config.max_plots, self._overrides)
+
+    def uses_platform(self, frame: TrackingFrame) -> bool:
+        """Return whether there is own ship: true bearings too are taken from somewhere."""
+        return frame.moving
+
+    def track(self, plots: Bearings, platform: Platform | None, frame: TrackingFrame) -> Tracks:
+        """
+        Follow all contacts through the marks of one cycle.
+
+        Marks in the tracking frame itself are true bearings, already turned by own ship's heading.
+        """
+        if platform is not None and not frame.needs_platform:
+            heading = platform.at(plots.time).yaw + self.tracker.config.sensor.mount.yaw
+            plots = replace(plots, bearing=wrap_angle(plots.bearing - heading))
+        return self.tracker.track(plots, platform)
+
+    def to_table(self, previous: Tracks, header: Any) -> Any:
+        """Return the track table."""
+        config = self.tracker.config
+        return from_bearing_tracks(
+            previous, self.tracker.tracks, self.tracker.ranges(), header, self._types,
+            directions=bearing_states, output=config.output,
+            gate_probability=config.gate.probability,
+        )  # fmt: skip
+
+    def to_bodies(self) -> Bodies:
+        """Return the confirmed tracks whose range is known."""
+        tracks = self.tracker.tracks
+        return located_bodies(tracks, self.tracker.ranges(), tracks.confirmed)
+
+    def follow(self) -> None:
+        """Do nothing: fans have no trails."""
+
+    def draw(self, shown: Set[int], header: Any, markers: Any) -> Any:
+        """Return the MarkerArray of the tracks."""
+        tracks, everyone = self.tracker.tracks, np.ones(len(self.tracker.tracks), bool)
+        located = located_bodies(tracks, self.tracker.ranges(), everyone)
+        return to_fan_markers(
+            tracks, self._fans(tracks, markers.length), located, shown, header, self._types,
+            lead_time=markers.lead_time,
+        )  # fmt: skip
+
+    def _fans(self, tracks: Tracks, length: float) -> Fans:
+        sensor, coverage = self.tracker.config.sensor, self.tracker.coverage
+        states = bearing_states(tracks, self.tracker.config.output)
+        is_blind = sensor.array == 'linear'  # to the side on which a contact is
+        return Fans(
+            bearing=states.bearing,
+            bearing_sd=states.bearing_sd,
+            gate=tracks.gate_size[:, 0],
+            origin=coverage.sensor_position,
+            axis=coverage.sector_centre - sensor.sector_centre if is_blind else None,
+            length=length,
+        )

@@ -1,0 +1,159 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How does a cycle of bearings become tracks? The object that node and replay drive."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sonar_tracker.build import build_setup, with_sensor
+from sonar_tracker.config import SonarTrackerConfig
+from sonar_tracker.ranging import RangeEstimates, Ranging
+from sonar_tracker.sensor import Sonar
+from tracking_core.batches import Bearings, Coverage, Floats, State, Tracks
+from tracking_core.linalg import wrap_angle
+from tracking_core.platform import Platform, PlatformPose, pose_at
+from tracking_core.rows import take
+from tracking_core.tracker import Tracker
+
+
+@dataclass(frozen=True)
+class BearingStates:
+    """What is known of the bearings of T tracks."""
+
+    bearing: Floats  # (T,) tracking axes, in [-pi, pi) [rad]
+    bearing_rate: Floats  # (T,) [rad/s]
+    bearing_sd: Floats  # (T,) [rad]
+    bearing_rate_sd: Floats  # (T,) [rad/s]
+
+
+def bearing_states(tracks: Tracks, output: str = 'mmse') -> BearingStates:
+    """Return bearing and rate of every track, each at the time of its last look."""
+    mean, covariance = tracks.planes[0].estimate(output)
+    sd = np.sqrt(np.einsum('tnn->tn', covariance))
+    return BearingStates(wrap_angle(mean[:, 0]), mean[:, 1], sd[:, 0], sd[:, 1])
+
+
+class SonarTracker:
+    """Tracks of one sonar."""
+
+    def __init__(self, config: SonarTrackerConfig) -> None:
+        self.config = config
+        self._forget(next_id=1)
+
+    def _forget(self, next_id: int) -> None:
+        self._sonar = Sonar(self.config.sensor)
+        self._tracker = Tracker(build_setup(self.config, self._sonar))
+        self._tracker.reset(next_id)
+        self._coverage = Coverage(0.0, 0.0)
+        self._ranging = Ranging(self.config.ranging)
+
+    @property
+    def state(self) -> State:
+        """All that the tracker remembers, with the report of the last step."""
+        return self._tracker.state
+
+    @property
+    def tracks(self) -> Tracks:
+        """All tracks, each at the time of its last look."""
+        return self._tracker.tracks
+
+    @property
+    def coverage(self) -> Coverage:
+        """What the last cycle listened to, in the tracking frame."""
+        return self._coverage
+
+    @property
+    def dimensions(self) -> int:
+        """One: the bearing."""
+        return 1
+
+    def reset(self) -> None:
+        """Forget all but the next id, as after a restart."""
+        self._forget(self.state.next_id)
+
+    def reconfigure(self, config: SonarTrackerConfig) -> None:
+        """Go on with other live parameters from the next message; tracks are kept."""
+        self.config = config
+        self._sonar = Sonar(config.sensor, self._sonar.usual_sd)
+        self._tracker.setup = build_setup(config, self._sonar)
+
+    def start_track(self, position: Floats, time: float) -> int:
+        """
+        Start a confirmed track at a time [s]; return its id.
+
+        `position` is a bearing (1,) [rad], or a point (2,) or (3,) in the tracking frame [m].
+        """
+        bearing = np.asarray(position[:1], np.float64)
+        if len(position) > 1:
+            x, y = np.asarray(position[:2]) - self._coverage.sensor_at(np.array([time]))[0, :2]
+            bearing = np.array([np.arctan2(y, x)])
+        return self._tracker.acquire(bearing, time, self._coverage)
+
+    def drop_track(self, track_id: int) -> bool:
+        """Delete one track; return whether there was one with this id."""
+        return self._tracker.cancel(track_id)
+
+    def track(self, bearings: Bearings, platform: Platform | None = None) -> Tracks:
+        """
+        Follow all contacts through one cycle.
+
+        Parameters
+        ----------
+        bearings : Bearings
+            All marks of the cycle; none is a cycle that heard nothing.
+        platform : Platform, optional
+            Own ship in the tracking frame; without it the sonar stands at the origin.
+
+        Returns
+        -------
+        Tracks
+            Every track, at the time of its last look.
+
+        Raises
+        ------
+        StalePlatform
+            If own ship is not known at the time of the marks.
+
+        """
+        times = bearings.time if len(bearings) else np.array([bearings.stamp])
+        start, end = float(times.min()), float(times.max())
+        pose = pose_at(platform, np.append(bearings.time, 0.5 * (start + end)))
+        self._coverage = self._listen(pose, start, end)
+        self._expect(bearings)
+        at_marks = take(pose, slice(0, -1))
+        tracks = self._tracker.step(self._sonar.measure(bearings, at_marks, self._coverage))
+        if self.config.ranging.enabled:
+            self._ranging.add(tracks, self._coverage)
+        return tracks
+
+    def ranges(self) -> RangeEstimates:
+        """Return what is known of range, course and speed of every track, row by row."""
+        return self._ranging.estimates(self.tracks, self._coverage)
+
+    def _expect(self, bearings: Bearings) -> None:
+        """Open the gates for the least sure of these marks."""
+        if len(bearings):
+            self._sonar = Sonar(self.config.sensor, float(self._sonar.mark_sd(bearings).max()))
+            self._tracker.setup = with_sensor(self._tracker.setup, self._sonar)
+
+    def _listen(self, pose: PlatformPose, start: float, end: float) -> Coverage:
+        """Return what this cycle listens to, in the tracking frame; the last pose counts."""
+        sensor, mount = self.config.sensor, self.config.sensor.mount
+        heading = float(pose.yaw[-1])
+        cos, sin = np.cos(heading), np.sin(heading)
+        x, y, z = pose.position[-1]
+        return Coverage(
+            start_time=start,
+            end_time=end,
+            sensor_position=(
+                float(x + cos * mount.x - sin * mount.y),
+                float(y + sin * mount.x + cos * mount.y),
+                float(z),
+            ),
+            sensor_velocity=tuple(pose.velocity[-1].tolist()),
+            sector_centre=float(heading + mount.yaw + sensor.sector_centre),
+            sector_width=sensor.sector_width,
+        )

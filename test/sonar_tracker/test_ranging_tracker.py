@@ -1,0 +1,92 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Ranges beside the tracker: misses, false marks, its public verbs."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.testing import assert_array_equal
+import pytest
+
+from sonar_tracker.config import SonarTrackerConfig
+from sonar_tracker.ranging_config import RangingConfig
+from sonar_tracker.tracker import bearing_states, SonarTracker
+from studies.v0_ranging import Case, scene, SD
+from tracking_core.batches import Bearings
+from tracking_core.config import with_values
+from tracking_core.linalg import wrap_angle
+from tracking_core.platform import Platform
+
+DEGREE = np.pi / 180.0
+
+
+def platform_of(time, own, heading) -> Platform:
+    """Own ship at (K, 2) with headings (K,)."""
+    none = np.zeros_like(time)
+    turn = np.stack([none, none, np.sin(0.5 * heading), np.cos(0.5 * heading)], axis=1)
+    velocity = np.column_stack([np.gradient(own, time, axis=0), none])
+    position = np.column_stack([own, none])
+    return Platform(time, position, turn, velocity, np.zeros((len(time), 3, 3)), none)
+
+
+def tracked(estimator='modified_polar', cycles=750):
+    """Return a tracker after V-0 with misses and false marks, and the line to object 1."""
+    time, own, objects = scene(Case())
+    platform = platform_of(time, own[:, :2], np.arctan2(own[:, 3], own[:, 2]))
+    line = objects[0, :, :2] - own[:, :2]
+    rng = np.random.default_rng(5)
+    values = {
+        'sensor.bearing_sd': SD,
+        'clutter_density': 0.5,
+        'estimator': estimator,
+        'initiation.rate_max': 0.1 * DEGREE,
+        'initiation.rate_sd': 0.02 * DEGREE,
+    }
+    tracker = SonarTracker(with_values(SonarTrackerConfig(), values))
+    for k in range(cycles):
+        true = np.arctan2(line[k, 1], line[k, 0]) + SD * rng.standard_normal()
+        false = rng.uniform(-np.pi, np.pi, rng.poisson(3.0))
+        marks = np.append(false, true) if rng.random() < 0.9 else false
+        marks = wrap_angle(marks - platform.at(time[k : k + 1]).yaw)
+        message = Bearings.of(np.full(len(marks), time[k]), marks)
+        tracker.track(Bearings(message.time, marks, message.bearing_sd, message.snr, time[k]),
+                      platform)  # fmt: skip
+    return tracker, line[:cycles], objects[0, cycles - 1]
+
+
+def test_tracker_tells_the_range() -> None:
+    """Through association, with misses and false marks: true within its sd, row by row."""
+    tracker, line, contact = tracked()
+    found = tracker.ranges()
+    assert_array_equal(found.id, tracker.tracks.id)
+    row = int(np.flatnonzero(found.observable)[0])
+    assert found.observable.sum() == 1
+    near = wrap_angle(bearing_states(tracker.tracks).bearing[row] - np.arctan2(*line[-1, ::-1]))
+    assert abs(near) < 5.0 * SD
+    assert found.range_sd[row] < 40.0
+    off = found.state[row] - contact
+    assert off @ np.linalg.solve(found.covariance[row], off) < 25.0
+    tracker.reset()
+    assert len(tracker.ranges()) == 0
+
+
+def test_ranging_can_be_off() -> None:
+    """Without ranging the filters are bare and nothing is told."""
+    config = with_values(SonarTrackerConfig(), {'ranging.enabled': False})
+    tracker = SonarTracker(config)
+    tracker.start_track(np.array([0.3]), 0.0)
+    assert tracker.tracks.planes[0].memory.shape == (1, 0)
+    assert_array_equal(tracker.ranges().observable, [False])
+
+
+@pytest.mark.parametrize(
+    ('values', 'words'),
+    [
+        ({'range_min': 5e3, 'range_max': 1e3}, 'must be below range_max'),
+        ({'points': 20, 'least_points': 12}, 'at most points / 2'),
+    ],
+)
+def test_config_refuses_what_does_not_fit(values, words: str) -> None:
+    """Parameters that contradict each other are refused, with what would be right."""
+    with pytest.raises(ValueError, match=words):
+        RangingConfig(**values)
