@@ -1,0 +1,111 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""The radar node as a process: tracks come out, whatever goes in."""
+
+from geometry_msgs.msg import PointStamped
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
+from nav_msgs.msg import Odometry
+import numpy as np
+from std_msgs.msg import UInt32
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import MarkerArray
+
+COLUMNS = {
+    'x', 'y', 'z', 'vx', 'vy', 'vz', 'id', 'status', 'coasted', 'time', 'age', 'hits', 'misses',
+    'existence_probability', 'manoeuvre_probability', 'p_0', 'p_1', 'gate_threshold',
+    'gate_volume', 'nis', 'speed', 'course', 'covariance', 'gate_x', 'gate_y', 'gate_z',
+}  # fmt: skip
+
+
+def test_tracks_appear_with_every_column(start_node, probe):
+    """Three contacts become three confirmed tracks, in the frame of the plots."""
+    node = start_node()
+    probe.meet()
+    table = probe.confirmed()
+    assert set(table) >= COLUMNS
+    assert table['covariance'].shape[1] == 36
+    assert probe.tables[-1].header.frame_id == 'radar'
+    assert np.allclose(sorted(table['speed']), sorted([170.0, 156.2, 150.0]), atol=40.0)
+    assert node.log.count("the tracking frame is 'radar'") == 1
+
+
+def test_views_come_while_somebody_subscribes(start_node, probe):
+    """Odometry of confirmed tracks and markers reach a viewer."""
+    start_node('markers.rate:=100.0')
+    odometry, markers = [], []
+    ends = [
+        probe.hear(Odometry, 'radar_tracker/odometry', odometry),
+        probe.hear(MarkerArray, 'radar_tracker/markers', markers),
+    ]
+    probe.meet()
+    probe.spin_until(lambda: all(end.get_publisher_count() for end in ends))
+    table = probe.confirmed()
+    parts = {'history', 'velocity', 'covariance', 'gate', 'id'}
+    probe.spin_until(lambda: markers and parts == {marker.ns for marker in markers[-1].markers})
+    probe.spin_until(lambda: len(odometry) >= 3)
+    names = {f'track_{track_id}' for track_id in table['id'][table['status'] == 1]}
+    assert {msg.child_frame_id for msg in odometry[-3:]} == names
+
+
+def test_reset_forgets_all_tracks_and_says_so(start_node, probe):
+    """After ~/reset the old tracks are reported as deleted once, and new ids begin."""
+    start_node()
+    probe.meet()
+    before = set(probe.confirmed()['id'])
+    assert probe.call(Trigger, 'radar_tracker/reset', Trigger.Request()).success
+    first, second = probe.scan(), probe.scan()
+    assert set(first['id'][first['status'] == 2]) == before
+    assert not before & set(second['id'])
+
+
+def test_cancel_drops_one_track(start_node, probe):
+    """The cancelled track is deleted, the others stay."""
+    node = start_node()
+    cancel = probe.node.create_publisher(UInt32, 'cancel', 10)
+    probe.meet()
+    probe.spin_until(cancel.get_subscription_count)
+    before = probe.confirmed()
+    cancel.publish(UInt32(data=int(before['id'][0])))
+    node.wait_for_line(f'track {before["id"][0]} dropped')
+    after = probe.scan()
+    deleted = after['status'] == 2
+    assert list(after['id'][deleted]) == [before['id'][0]]
+    assert set(after['id'][~deleted]) >= set(before['id'][1:])
+
+
+def test_acquire_starts_a_track_at_the_point(start_node, probe):
+    """A point in the tracking frame becomes a confirmed track."""
+    node = start_node()
+    acquire = probe.node.create_publisher(PointStamped, 'acquire', 10)
+    probe.meet()
+    probe.spin_until(acquire.get_subscription_count)
+    before = probe.confirmed()
+    point = PointStamped()
+    point.header.frame_id = 'radar'
+    point.point.x, point.point.y = 40e3, 40e3
+    acquire.publish(point)
+    node.wait_for_line('started at')
+    after = probe.scan()
+    new = ~np.isin(after['id'], before['id'])
+    assert np.hypot(after['x'][new] - 40e3, after['y'][new] - 40e3).min() < 1e3
+
+
+def test_lifecycle_cycle_keeps_silent_while_inactive(start_node, probe):
+    """Without autostart nothing is said until activated; a full cycle ends in fresh tracks."""
+    start_node('autostart:=false')
+
+    def change(number: int) -> None:
+        request = ChangeState.Request(transition=Transition(id=number))
+        assert probe.call(ChangeState, 'radar_tracker/change_state', request).success
+
+    for _ in range(2):
+        change(Transition.TRANSITION_CONFIGURE)
+        change(Transition.TRANSITION_ACTIVATE)
+        probe.meet()
+        assert set(probe.confirmed()['hits']) <= set(range(13))
+        change(Transition.TRANSITION_DEACTIVATE)
+        heard = len(probe.tables)
+        change(Transition.TRANSITION_CLEANUP)
+        assert len(probe.tables) == heard
+    change(Transition.TRANSITION_UNCONFIGURED_SHUTDOWN)

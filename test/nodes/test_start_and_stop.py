@@ -1,0 +1,125 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""A node starts with what it can use, refuses the rest by name, and stops without protest."""
+
+import signal
+
+import pytest
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, SetParameters
+
+
+@pytest.fixture(params=['radar', 'sonar'])
+def sensor(request):
+    """Test both nodes."""
+    return request.getfixturevalue(request.param)
+
+
+radar_only = pytest.mark.parametrize('sensor', ['radar'], indirect=True)
+
+
+@pytest.mark.parametrize(
+    'signals',
+    [
+        [signal.SIGINT],
+        [signal.SIGTERM],
+        [signal.SIGINT, signal.SIGINT],
+        [signal.SIGINT, signal.SIGTERM],
+    ],
+    ids=['int', 'term', 'int-int', 'int-term'],
+)
+def test_signals_end_the_node_with_zero_and_no_traceback(start_node, probe, signals):
+    """However often a user or a launch file insists, the exit is clean."""
+    node = start_node()
+    probe.meet()
+    for number in signals:
+        node.signal(number)
+    assert node.wait() == 0
+    assert 'Traceback' not in node.log
+
+
+@radar_only
+@pytest.mark.parametrize(
+    ('parameter', 'words'),
+    [
+        ('sensor.range_sd:=-1.0', ['sensor.range_sd', '0.001', '-1.0']),
+        ('sensor.range_sd:=wide', ['sensor.range_sd', 'wide']),
+        ('association:=hungarian', ['association', 'jpda', 'hungarian']),
+        ('sensor.range_min:=1e9', ['sensor.range_min', '1000000000']),
+        ('markers.rate:=-2', ['markers.rate', '-2']),
+        ('motion.horizontal.sojourn_time:=[1.0, 2.0, 3.0]', ['sojourn_time', '3']),
+    ],
+)
+def test_bad_parameter_is_named_and_ends_the_node(start_node, parameter, words):
+    """The node says parameter, limit and value, and exits with 1."""
+    node = start_node(parameter)
+    assert node.wait() == 1
+    assert all(word in node.log for word in words), node.log
+    assert 'Traceback' not in node.log
+
+
+@pytest.mark.parametrize('sensor', ['sonar'], indirect=True)
+@pytest.mark.parametrize(
+    ('parameter', 'words'),
+    [
+        ('sensor.bearing_sd:=9.0', ['sensor.bearing_sd', '0.5', '9.0']),
+        ('sensor.array:=round', ['sensor.array', 'linear', 'round']),
+        ('motion.rate_noise:=[1.0e-6, 1.0e-5]', ['rate_noise', 'one value per mode']),
+        ('markers.length:=-2', ['markers.length', '-2']),
+    ],
+)
+def test_bad_parameter_of_the_sonar_is_named_too(start_node, parameter, words):
+    """As of the radar."""
+    test_bad_parameter_is_named_and_ends_the_node(start_node, parameter, words)
+
+
+@radar_only
+def test_int_is_accepted_for_a_double(start_node, probe):
+    """`-p sensor.range_sd:=30` and a list of ints work."""
+    node = start_node('sensor.range_sd:=30', 'motion.horizontal.acceleration_sd:=[3, 35]')
+    probe.meet()
+    assert len(probe.confirmed()['id']) >= 3
+    assert '2 parameters come from files or arguments' in node.log
+
+
+def test_unknown_parameter_is_warned_about_with_the_nearest_name(start_node):
+    """A typing error in a parameter's name does not pass in silence."""
+    node = start_node('gate.probabilty:=0.9')
+    line = node.wait_for_line('gate.probabilty')
+    assert 'did you mean gate.probability?' in line
+
+
+def test_silence_is_explained(start_node, sensor):
+    """After some seconds without input the node says what it waits for."""
+    node = start_node()
+    line = node.wait_for_line(f'nothing has come on /{sensor.topic}')
+    assert 'sensor_msgs/msg/PointCloud2' in line
+    assert 'nobody publishes there' in line
+
+
+@radar_only
+def test_live_parameter_is_described_checked_and_followed(start_node, probe):
+    """A live parameter takes an int, refuses nonsense; a structural one cannot be set."""
+    start_node()
+    probe.meet()
+    request = DescribeParameters.Request(names=['sensor.range_sd', 'association'])
+    answer = probe.call(DescribeParameters, 'radar_tracker/describe_parameters', request)
+    number, choice = answer.descriptors
+    assert number.description == 'range noise [m]'
+    assert number.floating_point_range[0].from_value == pytest.approx(1e-3)
+    assert 'jpda' in choice.additional_constraints
+
+    def set_to(name, value):
+        request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
+        return probe.call(SetParameters, 'radar_tracker/set_parameters', request).results[0]
+
+    whole = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=5)
+    below = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=-1.0)
+    word = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value='fast')
+    assert set_to('markers.rate', whole).successful
+    assert not set_to('markers.rate', below).successful
+    refused = set_to('gate.probability', word)
+    assert not refused.successful
+    assert 'gate.probability' in refused.reason
+    assert not set_to('sensor.range_sd', below).successful
+    assert len(probe.confirmed()['id']) >= 3
