@@ -55,7 +55,7 @@ def send(
     """
     turn: list[SimulatedScan] = []
     for scan in plots(scenario, np.random.default_rng(scenario.seed), sectors):
-        columns = _as_table(scan.columns, scan.start)
+        columns = as_table(scan.columns, scan.start)
         msg = table.from_columns(columns, epoch + scan.start, FRAME, types)
         sent = [Sent(PLOTS, msg, scan.end)]
         turn.append(scan)
@@ -68,11 +68,11 @@ def send(
 def _truth_of(turn: list[SimulatedScan], epoch: float, types: MessageTypes) -> Sent:
     start, end = turn[0].start, turn[-1].end
     truth = Truth.joined([scan.truth for scan in turn])
-    columns = _as_table(truth.columns(), start)
+    columns = as_table(truth.columns(), start)
     return Sent(TRUTH, table.from_columns(columns, epoch + start, FRAME, types), end)
 
 
-def _as_table(columns: dict[str, Any], start: float) -> dict[str, Any]:
+def as_table(columns: dict[str, Any], start: float) -> dict[str, Any]:
     """Columns as they travel: ids as uint32, the rest as float32, time from the stamp on."""
     since = columns | {'time': columns['time'] - start}
     return {name: c.astype('u4' if name == 'id' else 'f4') for name, c in since.items()}

@@ -1,0 +1,59 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of replay, demo and picture share: a short piece of the demo scene."""
+
+from collections.abc import Callable
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from msg_adapters.message_types import rosbags_types
+from msg_adapters.table import from_columns
+from tracking_tools.bags import BagWriter, open_bag
+
+DEMO = Path(__file__).parents[2] / 'demo' / 'terminal_area'
+
+
+@pytest.fixture(scope='session')
+def cut_bag(tmp_path_factory: pytest.TempPathFactory) -> Callable[[int], Path]:
+    """Return a function that makes a bag of the first turns of the demo scene."""
+    folder = tmp_path_factory.mktemp('cut')
+
+    def cut(turns: int) -> Path:
+        path = folder / f'turns_{turns}'
+        if not path.exists():
+            with open_bag(DEMO) as bag, BagWriter(path) as out:
+                for connection, time, raw in islice(bag.messages(), 2 * turns):
+                    out.write_raw(connection.topic, connection.msgtype, raw, time)
+        return path
+
+    return cut
+
+
+@pytest.fixture(scope='session')
+def messages() -> Callable[[Path, str], list[tuple[int, Any]]]:
+    """Return a function that reads (time [ns], message) of all messages on a topic."""
+
+    def messages(bag: Path, topic: str) -> list[tuple[int, Any]]:
+        with open_bag(bag) as reader:
+            chosen = [c for c in reader.connections if c.topic == topic]
+            return [
+                (time, reader.deserialize(raw, connection.msgtype))
+                for connection, time, raw in reader.messages(chosen)
+            ]
+
+    return messages
+
+
+@pytest.fixture(scope='session')
+def plots_message() -> Callable[..., Any]:
+    """Return a function that makes a plots message from a stamp [s] and columns."""
+
+    def plots_message(time: float, **columns: list[float]) -> Any:
+        arrays = {name: np.array(values, np.float32) for name, values in columns.items()}
+        return from_columns(arrays, time, 'radar', rosbags_types())
+
+    return plots_message

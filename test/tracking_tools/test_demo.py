@@ -1,0 +1,187 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Check the demo as a user starts it, and how it ends when the user has seen enough."""
+
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from msg_adapters.table import to_columns
+from tracking_tools.bags import open_bag
+from tracking_tools.demo import main
+from tracking_tools.held import count_false, find_holds
+from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain
+from tracking_tools.scene import Scene
+
+ROOT = Path(__file__).parents[2]
+DEADLINE = 60.0
+
+
+def start(*arguments):
+    """Start the demo as a process."""
+    return subprocess.Popen(
+        [sys.executable, '-m', 'tracking_tools.demo', *map(str, arguments)],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def children(pid):
+    """Return the processes that a process has started, and theirs."""
+    found = []
+    for status in Path('/proc').glob('[0-9]*/stat'):
+        try:
+            parent = int(status.read_text().rpartition(')')[2].split()[1])
+        except (OSError, ValueError):
+            continue
+        if parent == pid:
+            child = int(status.parent.name)
+            found += [child, *children(child)]
+    return found
+
+
+def wait_for(condition, process):
+    """Wait until the condition holds."""
+    deadline = time.monotonic() + DEADLINE
+    while not condition():
+        assert process.poll() is None, process.communicate()[0]
+        assert time.monotonic() < deadline
+        time.sleep(0.05)  # between two looks, not for something to be over
+
+
+@pytest.mark.slow
+def test_demo_ends_with_tracks_and_a_picture(cut_bag, tmp_path):
+    """The live node answers every message; the end says how long contacts were held."""
+    process = start('--output', tmp_path, '--recording', cut_bag(40), '--rate', 1e6)
+    said, _ = process.communicate(timeout=DEADLINE)
+    assert process.returncode == 0, said
+    assert 'of the time' in said
+    assert '0 id switches' in said
+    assert (tmp_path / 'demo.png').read_bytes().startswith(b'\x89PNG')
+    with open_bag(tmp_path / 'demo_tracks') as bag:
+        tables = [
+            to_columns(bag.deserialize(raw, c.msgtype), 1000) for c, _, raw in bag.messages()
+        ]
+    assert len(tables) == 40
+    assert np.sum(tables[-1]['status'] == 1) >= 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize('request_', [signal.SIGINT, signal.SIGTERM])
+def test_demo_stops_when_asked(cut_bag, tmp_path, request_):
+    """No traceback, no node left behind, no half-written bag."""
+    process = start('--output', tmp_path, '--recording', cut_bag(40), '--rate', 1.0)
+    log = tmp_path / 'demo_node.log'
+    wait_for(lambda: log.exists() and 'fields of the plots' in log.read_text(), process)
+    started = children(process.pid)
+    assert started
+    os.killpg(process.pid, request_)  # as a terminal does
+    said, _ = process.communicate(timeout=DEADLINE)
+    assert process.returncode == 130
+    assert 'Traceback' not in said + log.read_text()
+    assert [path.name for path in tmp_path.iterdir()] == ['demo_node.log']
+    assert not any(Path(f'/proc/{child}').exists() for child in started)
+
+
+def test_demo_without_a_node_gives_the_same_files(cut_bag, tmp_path, capsys):
+    """A replay stands in where there is no ROS; a second run replaces the first."""
+    arguments = ['--no-live', '--output', str(tmp_path), '--recording', str(cut_bag(40))]
+    for _ in range(2):
+        assert main(arguments) == 0
+    assert 'of the time' in capsys.readouterr().out
+    assert {path.name for path in tmp_path.iterdir()} == {'demo.png', 'demo_tracks'}
+
+
+def test_demo_removes_nothing_but_bags(cut_bag, tmp_path, capsys):
+    """A folder of somebody else in the place of the bag stays."""
+    (tmp_path / 'demo_tracks').mkdir()
+    (tmp_path / 'demo_tracks' / 'thesis.txt').write_text('years of work')
+    arguments = ['--no-live', '--output', str(tmp_path), '--recording', str(cut_bag(40))]
+    assert main(arguments) == 1
+    assert 'is in the way' in capsys.readouterr().err
+    assert (tmp_path / 'demo_tracks' / 'thesis.txt').exists()
+
+
+@pytest.mark.parametrize('rate', ['0', '-1', 'nan', 'fast'])
+def test_demo_refuses_bad_rates(rate, capsys):
+    """A rate is above zero."""
+    with pytest.raises(SystemExit):
+        main(['--rate', rate])
+    assert '--rate' in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_demo_says_why_the_node_does_not_start(cut_bag, tmp_path, capsys):
+    """A parameter out of its range ends the node; its last words are shown."""
+    params = tmp_path / 'bad.yaml'
+    params.write_text('/**:\n  ros__parameters: {gate.probability: 7.0}\n')
+    arguments = ['--output', str(tmp_path / 'out'), '--recording', str(cut_bag(40))]
+    assert main([*arguments, '--params', str(params)]) == 1
+    said = capsys.readouterr().err
+    assert 'the node ended with code 1' in said
+    assert 'gate.probability' in said
+
+
+def test_private_domain_is_never_shared():
+    """Two users at a time have two domains, and a free one is used again."""
+    with private_domain() as one, private_domain() as another:
+        assert one != another
+    with private_domain() as again:
+        assert again == min(one, another) or again not in (one, another)
+
+
+def test_node_process_insists(tmp_path, monkeypatch):
+    """A process that is deaf to SIGINT is ended all the same."""
+    module = tmp_path / 'deaf.py'
+    module.write_text(
+        'import signal, time\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n'
+        'print("ready", flush=True)\nsignal.pause()\n'
+    )
+    log = tmp_path / 'log'
+    monkeypatch.setenv('PYTHONPATH', str(tmp_path))
+    process = NodeProcess('deaf', [], 1, log, patience=0.2)
+    with process:
+        wait_for(lambda: 'ready' in log.read_text(), process.process)
+        process.check()
+    assert process.exit_code == -signal.SIGTERM
+    with pytest.raises(NodeFailed, match='ended with code -15'):
+        process.check()
+
+
+def scene(truth, tracks):
+    """Return a scene from rows (id, stamp, x); nothing moves in y and z."""
+    names = ('x', 'y', 'z', 'vx', 'vy', 'vz')
+
+    def columns(rows):
+        ids, stamps, x = (np.array(values) for values in zip(*rows, strict=True))
+        zero = dict.fromkeys(names, np.zeros(len(ids)))
+        times = {'time': stamps.astype(float), 'stamp': stamps.astype(float)}
+        return {**zero, **times, 'id': ids, 'x': x.astype(float)}
+
+    published = columns(tracks)
+    published['covariance'] = np.tile(np.eye(6).ravel(), (len(tracks), 1))
+    return Scene(plots={}, published=published, truth=columns(truth))
+
+
+def test_find_holds_counts_switches_in_sight_and_out_of_it():
+    """A change of id counts apart when the contact was away; the first looks do not count."""
+    seen = [k for k in range(40) if not 20 <= k < 27]
+    truth = [(1, k, 0.0) for k in seen]
+    tracks = [(5, k, 30.0) for k in range(4, 10)] + [(6, k, 40.0) for k in range(10, 20)]
+    tracks += [(7, k, 0.0) for k in range(28, 40)] + [(8, k, 9e4) for k in range(3)]
+    found = scene(truth, tracks)
+    (hold,) = find_holds(found)
+    assert hold.tracks.tolist() == [5, 6, 7]
+    assert (hold.switches, hold.returns) == (1, 1)
+    assert hold.share == pytest.approx(28 / 30)
+    assert hold.error == pytest.approx(np.sqrt((6 * 30**2 + 10 * 40**2) / 28))
+    assert count_false(found, [hold]) == 1

@@ -1,0 +1,24 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Is the page of parameters what the config dataclasses say?"""
+
+from pathlib import Path
+
+from tracking_core.config import parameters
+from tracking_tools.parameter_page import NODES, page
+
+PAGE = Path(__file__).parents[2] / 'docs' / 'parameters.md'
+
+
+def test_page_is_current() -> None:
+    """A changed default is changed here too: run python -m tracking_tools.parameter_page."""
+    assert PAGE.read_text() == page()
+
+
+def test_page_has_every_parameter_with_a_meaning() -> None:
+    """No parameter without words, none twice in a node."""
+    for configs in NODES.values():
+        names = [p.name for config in configs for p in parameters(config)]
+        assert len(names) == len(set(names))
+        assert all(p.doc for config in configs for p in parameters(config))
+        assert all(f'`{name}`' in page() for name in names)

@@ -1,0 +1,95 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which track held which contact of a scene, and for how long?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from msg_adapters.table import Columns
+from tracking_core.batches import Floats, Ints
+from tracking_core.rows import take
+from tracking_tools.scene import choose, Scene
+from tracking_tools.scoring import match, Matches, TrackRows, Truth
+
+RADIUS = 1_000.0  # a track farther off is not the contact's [m]
+START = 3  # looks at a contact before anybody can have a track of it
+OUT_OF_SIGHT = 2.5  # looks that fail to come
+
+
+@dataclass(frozen=True)
+class Hold:
+    """How one contact was held."""
+
+    contact: int
+    duration: float  # that it was in sight [s]
+    share: float  # of its scans with a confirmed track on it
+    tracks: Ints  # (K,) ids in order of appearance
+    switches: int  # changes of the track while the contact was in sight
+    returns: int  # changes of the track while it was out of sight
+    error: float  # root mean square distance of the track [m]
+
+
+def find_holds(scene: Scene) -> list[Hold]:
+    """Return how each contact of the truth was held, in order of their ids."""
+    if not scene.has_truth or not len(scene.published.get('id', ())):
+        return []
+    stamps = np.unique(scene.truth['stamp'])
+    matches = match(_rows(scene.published, stamps), _truth(scene.truth), RADIUS)
+    return [
+        _hold(contact, scene.truth, stamps, matches) for contact in np.unique(scene.truth['id'])
+    ]
+
+
+def count_false(scene: Scene, holds: list[Hold]) -> int:
+    """Count the confirmed tracks that never held a contact."""
+    real = [number for hold in holds for number in hold.tracks]
+    return len(np.setdiff1d(scene.published.get('id', ()), real))
+
+
+def _hold(contact: int, truth: Columns, stamps: Floats, matches: Matches) -> Hold:
+    path = choose(truth, truth['id'] == contact)
+    mine = take(matches, matches.target == contact)
+    scans = np.searchsorted(stamps, path['stamp'])[START:]
+    changed = np.flatnonzero(np.diff(mine.track)) + 1
+    back, time = _returns(path['time']), stamps[mine.scan]
+    # Back in sight between the last scan of one track and the first of the next?
+    lost = np.searchsorted(back, time[changed]) > np.searchsorted(back, time[changed - 1])
+    return Hold(
+        contact=int(contact),
+        duration=float(np.ptp(path['time'])),
+        share=float(np.isin(scans, mine.scan).mean()) if len(scans) else 0.0,
+        tracks=mine.track[np.concatenate([[0], changed])] if len(mine) else mine.track,
+        switches=int(np.sum(~lost)),
+        returns=int(np.sum(lost)),
+        error=float(np.sqrt(np.mean(mine.distance**2))) if len(mine) else float('nan'),
+    )
+
+
+def _returns(time: Floats) -> Floats:
+    """Return when a contact that was seen at these times (M,) came back into sight."""
+    gaps = np.diff(time, prepend=time[0])
+    return time[gaps > OUT_OF_SIGHT * np.median(gaps)]
+
+
+def _rows(table: Columns, stamps: Floats) -> TrackRows:
+    rows = choose(table, np.isin(table['stamp'], stamps))
+    return TrackRows(
+        scan=np.searchsorted(stamps, rows['stamp']),
+        id=rows['id'].astype(np.int64),
+        time=rows['time'],
+        position=_vectors(rows, 'x', 'y', 'z'),
+        velocity=_vectors(rows, 'vx', 'vy', 'vz'),
+        covariance=rows['covariance'].reshape(-1, 6, 6),
+    )
+
+
+def _truth(truth: Columns) -> Truth:
+    place, velocity = _vectors(truth, 'x', 'y', 'z'), _vectors(truth, 'vx', 'vy', 'vz')
+    return Truth.of(truth['id'].astype(np.int64), truth['time'], place, velocity)
+
+
+def _vectors(rows: Columns, *names: str) -> Floats:
+    return np.stack([rows[name] for name in names], axis=1).astype(np.float64)

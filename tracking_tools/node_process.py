@@ -1,0 +1,119 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How a node is run as a process of its own, in a ROS graph that nobody else is in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+import fcntl
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import tempfile
+from typing import IO
+
+DOMAIN_IDS = range(1, 101)
+PATIENCE = 10.0  # for a node to end after SIGINT [s]
+
+
+class NodeFailed(RuntimeError):  # noqa: N818 (it is the node that failed)
+    """A node that does not do what it should; says how it ended and where its log is."""
+
+
+@contextmanager
+def private_domain() -> Iterator[int]:
+    """Yield a ROS domain id that no other user of this function has, on this machine alone."""
+    folder = Path(tempfile.gettempdir(), f'contact_tracking_domains_{os.getuid()}')
+    folder.mkdir(exist_ok=True)
+    for domain_id in DOMAIN_IDS:
+        with (folder / str(domain_id)).open('w') as lock:
+            if _is_locked(lock):
+                yield domain_id
+                return
+    raise NodeFailed(f'all ROS domains of {DOMAIN_IDS} are taken; see {folder}')
+
+
+def _is_locked(lock: IO[str]) -> bool:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+class NodeProcess:
+    """
+    A node that runs as long as the context does.
+
+    Parameters
+    ----------
+    module : str
+        As for ``python -m``.
+    arguments : sequence of str
+        Those after ``--ros-args``.
+    domain_id : int
+        ROS domain; the node keeps to this machine.
+    log : Path or str
+        File for what it says.
+    patience : float
+        For it to end after it was asked to [s].
+
+    """
+
+    def __init__(
+        self,
+        module: str,
+        arguments: Sequence[str],
+        domain_id: int,
+        log: Path | str,
+        patience: float = PATIENCE,
+    ) -> None:
+        self._command = [sys.executable, '-m', module, '--ros-args', *arguments]
+        self._environment = {
+            **os.environ,
+            'ROS_DOMAIN_ID': str(domain_id),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        }
+        self.log, self._patience = Path(log), patience
+        self.exit_code: int | None = None
+
+    def __enter__(self) -> NodeProcess:
+        with self.log.open('wb') as out:
+            self.process = subprocess.Popen(
+                self._command,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                env=self._environment,
+                start_new_session=True,  # a Ctrl-C at the terminal is ours to pass on
+            )
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.exit_code = self.stop()
+
+    def check(self) -> None:
+        """Raise NodeFailed if the node has ended."""
+        code = self.process.poll()
+        if code is not None:
+            said = self.log.read_text(errors='replace').strip().splitlines()[-3:]
+            raise NodeFailed(
+                f'the node ended with code {code}; last lines of {self.log}:\n' + '\n'.join(said)
+            )
+
+    def stop(self) -> int:
+        """Ask the node to end, insist if it does not, and return its exit code."""
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # an impatient user must wait
+        try:
+            for request in (signal.SIGINT, signal.SIGTERM):
+                if self.process.poll() is None:
+                    self.process.send_signal(request)
+                with suppress(subprocess.TimeoutExpired):
+                    return self.process.wait(self._patience)
+            self.process.kill()
+            return self.process.wait()
+        finally:
+            signal.signal(signal.SIGINT, before)

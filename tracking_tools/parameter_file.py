@@ -1,0 +1,160 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How a ROS parameter file is read without ROS, and what it says about one node."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from pathlib import Path
+import re
+from typing import Any, TypeVar
+
+import yaml
+
+from tracking_core.config import parameters, with_values
+
+Configs = TypeVar('Configs', bound=tuple[Any, ...])
+
+LEAF = 'ros__parameters'
+# Parameters that every node of ROS has; they mean nothing to a recording.
+OF_ROS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
+_WILDCARDS = {'/**': '(/[^/]+)*', '/*': '/[^/]+'}
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML as rcl reads it: 1e5 is a number."""
+
+
+_Loader.add_implicit_resolver(
+    'tag:yaml.org,2002:float', re.compile(r'[-+]?[0-9]+[eE][-+]?[0-9]+$'), list('-+0123456789')
+)
+
+
+class BadParameterFile(ValueError):  # noqa: N818 (it is the file that is bad)
+    """A parameter file that says nothing usable; names the file and what is wrong with it."""
+
+
+def read_parameter_file(path: Path | str, node: str) -> dict[str, Any]:
+    """
+    Return what a parameter file in ROS form says about one node, by dotted name.
+
+    Parameters
+    ----------
+    path : Path or str
+        YAML file; blocks keyed ``/**``, the node's name or a pattern that fits it are used, a
+        later block overrides an earlier one.
+    node : str
+        Full name of the node, as ``/radar_tracker``.
+
+    Raises
+    ------
+    BadParameterFile
+        If there is no such file, it is not a parameter file, or no block of it is for this node.
+
+    """
+    document = _load(Path(path))
+    blocks = list(_blocks(document, ''))
+    if not blocks:
+        raise BadParameterFile(f"{path}: no '{LEAF}:' in it; expected '/**: {LEAF}: name: value'")
+    mine = [block for name, block in blocks if _fits(name, node)]
+    if not mine:
+        others = ', '.join(sorted({name for name, _ in blocks}))
+        raise BadParameterFile(
+            f"{path}: its parameters are for {others}, none for {node}; '/**:' is for all"
+        )
+    values: dict[str, Any] = {}
+    for block in mine:
+        values |= {name: _checked(name, value, path) for name, value in _flat(block, '')}
+    return values
+
+
+def parse_value(text: str) -> Any:
+    """Return the value that a text means in a parameter file; raises BadParameterFile."""
+    try:
+        return yaml.load(text, _Loader)
+    except yaml.YAMLError as error:
+        raise BadParameterFile(f'{text!r} is not a value: {error}') from error
+
+
+def configure(configs: Configs, values: Mapping[str, Any]) -> Configs:
+    """
+    Return the configs with these values, each where its name is known.
+
+    Parameters
+    ----------
+    configs : tuple of dataclasses
+        No name occurs in two of them.
+    values : mapping
+        By dotted name.
+
+    Raises
+    ------
+    ValueError
+        For a name that none of them knows, with the nearest that one does, or a value outside
+        its limits.
+
+    """
+    names = [[entry.name for entry in parameters(config)] for config in configs]
+    known = [name for own in names for name in own]
+    for name in values:
+        if name not in known and not name.startswith(OF_ROS):
+            near = get_close_matches(name, known, 1)
+            raise ValueError(
+                f'unknown parameter {name}' + (f'; did you mean {near[0]}?' if near else '')
+            )
+    return tuple(  # type: ignore[return-value]
+        with_values(config, {name: values[name] for name in own if name in values})
+        for config, own in zip(configs, names, strict=True)
+    )
+
+
+def _load(path: Path) -> Mapping[str, Any]:
+    try:
+        document = yaml.load(path.read_text(encoding='utf-8'), _Loader)
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadParameterFile(f'{path} cannot be read: {error}') from error
+    except yaml.YAMLError as error:
+        raise BadParameterFile(f'{path} is not YAML: {error}') from error
+    if not isinstance(document, dict):
+        raise BadParameterFile(f"{path}: expected '/**: {LEAF}: name: value'")
+    return document
+
+
+def _blocks(tree: Mapping[Any, Any], name: str) -> Iterator[tuple[str, Mapping[Any, Any]]]:
+    """Yield node name and parameters of each block; namespaces may be nested keys."""
+    for key, below in tree.items():
+        if not isinstance(below, dict):
+            continue
+        if key == LEAF:
+            yield name, below
+        else:
+            yield from _blocks(below, f'{name}/{str(key).strip("/")}')
+
+
+def _fits(pattern: str, node: str) -> bool:
+    """Whether a block's name, wildcards included, is that of the node."""
+    parts = (f'/{part}' for part in pattern.strip('/').split('/'))
+    expression = ''.join(_WILDCARDS.get(part, re.escape(part)) for part in parts)
+    return re.fullmatch(expression, node) is not None
+
+
+def _flat(tree: Mapping[Any, Any], prefix: str) -> Iterator[tuple[str, Any]]:
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f'{prefix}{key}.')
+        else:
+            yield f'{prefix}{key}', value
+
+
+def _checked(name: str, value: Any, path: Path | str) -> Any:
+    """Return the value, if ROS would read it too."""
+    if value is None:
+        raise BadParameterFile(f'{path}: {name} has no value')
+    kinds = {type(item) for item in value} if isinstance(value, Sequence) else set()
+    if isinstance(value, list) and (len(kinds) > 1 or kinds & {list, dict, type(None)}):
+        raise BadParameterFile(
+            f'{path}: {name} = {value}: ROS takes flat lists of one type; write 1.0, not 1, among '
+            'numbers with a point'
+        )
+    return value

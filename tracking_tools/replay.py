@@ -1,0 +1,171 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How a recording becomes tracks without a ROS graph.
+
+Every message goes through the object that the node drives, so the rows are those of the live node.
+Time is that of the recording: the same bag and parameters give the same bytes.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping, Sequence
+from importlib import import_module
+from pathlib import Path
+import sys
+import time
+from typing import Any
+
+from rosbags.highlevel import AnyReader, AnyReaderError
+from rosbags.serde import SerdeError
+from tqdm import tqdm
+
+from msg_adapters.message_types import rosbags_types
+from msg_adapters.session import Session
+from tracking_tools.bags import BagWriter, NANOSECONDS, open_bag
+from tracking_tools.parameter_file import (
+    BadParameterFile,
+    configure,
+    parse_value,
+    read_parameter_file,
+)
+from tracking_tools.replay_topics import BadBag, check_topics, messages_of, Topics
+from tracking_tools.sensors import Configs, Sensor, SENSORS
+from tracking_tools.summary import Console, Summary
+
+POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
+RADAR = SENSORS['radar']
+
+
+def replay(
+    recording: Path | str,
+    output: Path | str,
+    configs: Configs | None = None,
+    topics: Topics | None = None,
+    quiet: bool = False,
+    sensor: Sensor = RADAR,
+) -> Summary:
+    """
+    Write the bag of tracks that the node would have published.
+
+    Parameters
+    ----------
+    recording : Path or str
+        rosbag2 directory with plots.
+    output : Path or str
+        Directory to make.
+    configs : tuple, optional
+        Parameters of tracker and node.
+    topics : Topics, optional
+        Where in the bag the messages are, and where the tracks go.
+    quiet : bool
+        Without progress and remarks.
+    sensor : Sensor
+        What the plots are from.
+
+    Raises
+    ------
+    FileNotFoundError, FileExistsError
+        If there is no bag, or something in the place of the output.
+    BadBag
+        If the bag cannot be read or has no plots; says what it has.
+
+    """
+    topics = topics or Topics.of(sensor)
+    configs = configs or sensor.configs
+    session = sensor.make_session(*configs, rosbags_types(), Console(quiet))
+    summary, began = Summary(session.counts[sensor.topic]), time.perf_counter()
+    try:
+        with open_bag(recording) as bag:
+            check_topics(bag, topics, recording)
+            with BagWriter(output) as out:
+                out.announce(topics.tracks, POINT_CLOUD)
+                for table, received in _drive(bag, session, topics, quiet):
+                    out.write(topics.tracks, table, received)
+                    summary.add(session.tracks, received)
+    except AnyReaderError as error:
+        raise BadBag(f'{recording} cannot be read as a rosbag2 recording: {error}') from error
+    summary.wall_time = time.perf_counter() - began
+    return summary
+
+
+def _drive(
+    bag: AnyReader, session: Session, topics: Topics, quiet: bool
+) -> Iterator[tuple[Any, int]]:
+    """Yield each track table and when its plots were recorded [ns]."""
+    handlers = topics.handlers(session)
+    chosen = [connection for connection in bag.connections if connection.topic in handlers]
+    total = sum(connection.msgcount for connection in chosen)
+    with tqdm(total=total, desc='replay', unit='msg', disable=quiet or None) as progress:
+        for connection, received, raw in messages_of(bag, chosen):
+            progress.update()
+            ours = handlers[connection.topic]
+            session.counts[ours.name].received(None, 1)
+            try:
+                msg = bag.deserialize(raw, connection.msgtype)
+            except (AnyReaderError, SerdeError):
+                session.counts[ours.name].refused['not readable'] += 1
+                continue
+            table = ours.take(msg, received / NANOSECONDS)
+            if table is not None:
+                yield table, received
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = _parser()
+    chosen = parser.parse_args(arguments)
+    try:
+        sensor = SENSORS[chosen.sensor]
+        topics = Topics.remapped(chosen.remap, sensor)
+        configs = read_configs(chosen.params, dict(map(_setting, chosen.set)), sensor)
+    except ValueError as error:
+        parser.error(str(error))
+    try:
+        summary = replay(chosen.recording, chosen.output, configs, topics, chosen.quiet, sensor)
+    except (BadBag, OSError) as error:
+        print(f'replay: {error}', file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print('replay: stopped; nothing was written', file=sys.stderr)
+        return 130
+    if chosen.picture is not None:
+        pictures = import_module(sensor.picture)  # matplotlib takes long to import
+        pictures.draw_recording(chosen.recording, chosen.output, topics, configs, chosen.picture)
+    if not chosen.quiet:
+        print(f'{summary}\ntracks: {chosen.output}, topic {topics.tracks}')
+    return 0
+
+
+def read_configs(file: Path | None, settings: Mapping[str, Any], sensor: Sensor) -> Configs:
+    """Return the parameters of a file, if any, and those set beside it, which win."""
+    values = {} if file is None else read_parameter_file(file, f'/{sensor.node}')
+    return configure(sensor.configs, {**values, **settings})
+
+
+def _setting(text: str) -> tuple[str, Any]:
+    name, equals, value = text.partition('=')
+    if not (name and equals and value):
+        raise BadParameterFile(f'--set takes name=value, got {text!r}')
+    return name.strip(), parse_value(value)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='replay', description='Track a recorded bag with the parameters of a live node.'
+    )
+    add = parser.add_argument
+    add('recording', type=Path, metavar='IN_BAG', help='rosbag2 directory, mcap or sqlite3')
+    add('--sensor', choices=SENSORS, required=True, help='what the plots are from')
+    add('--params', type=Path, metavar='FILE', help='parameter file in ROS form (YAML)')
+    add('--set', action='append', default=[], metavar='NAME=VALUE', help='one parameter')
+    add('--remap', action='append', default=[], metavar='FROM:=TO', help='as plots:=/radar/plots')
+    add('--output', type=Path, required=True, metavar='OUT_BAG', help='rosbag2 directory to make')
+    add('--quiet', action='store_true', help='no progress, no remarks, no summary')
+    add('--picture', type=Path, metavar='PNG', help='draw what came out')
+    return parser
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,132 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which topic of a bag is which of the node's, and what the node does with its messages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from rosbags.highlevel import AnyReader
+from rosbags.interfaces import Connection
+
+from msg_adapters.session import Session
+from tracking_tools.bags import absolute
+from tracking_tools.sensors import Sensor, SENSORS
+
+TYPES = {
+    'plots': 'sensor_msgs/msg/PointCloud2',
+    'ownship': 'nav_msgs/msg/Odometry',
+    'acquire': 'geometry_msgs/msg/PointStamped',
+    'cancel': 'std_msgs/msg/UInt32',
+}
+
+
+class BadBag(ValueError):  # noqa: N818 (it is the bag that is bad)
+    """A bag that cannot be replayed; says what it has and what is missing."""
+
+
+class Handler(NamedTuple):
+    """What becomes of the messages of one topic."""
+
+    name: str  # ours
+    take: Callable[[Any, float], Any]  # message and when it came [s]: a track table or None
+
+
+@dataclass(frozen=True)
+class Topics:
+    """Names in the bags; those of the radar node by default."""
+
+    plots: str = '/plots'  # of a sonar: its marks
+    ownship: str = '/ownship'
+    acquire: str = '/acquire'
+    cancel: str = '/cancel'
+    tracks: str = '/radar_tracker/tracks'
+    truth: str = '/truth'
+    node: str = '/radar_tracker'
+    sensor: str = 'plots'  # what rules and counts call the first one
+
+    @staticmethod
+    def of(sensor: Sensor) -> Topics:
+        """Return the names that this sensor's node has."""
+        node = f'/{sensor.node}'
+        return Topics(f'/{sensor.topic}', tracks=f'{node}/tracks', node=node, sensor=sensor.topic)
+
+    @staticmethod
+    def remapped(rules: Iterable[str], sensor: Sensor = SENSORS['radar']) -> Topics:
+        """
+        Return the topics under rules as ROS has them, ``plots:=/radar/plots``.
+
+        Raises
+        ------
+        BadBag
+            For a rule of another form or for a topic that there is none of.
+
+        """
+        topics = Topics.of(sensor)
+        others = [name for name in vars(topics) if name not in ('plots', 'node', 'sensor')]
+        known = {sensor.topic: 'plots', **{name: name for name in others}}
+        for rule in rules:
+            left, sign, theirs = rule.partition(':=')
+            name = left.removeprefix('~').strip('/').removeprefix(f'{sensor.node}/')
+            if not sign or not theirs.strip('/') or name not in known:
+                raise BadBag(
+                    f'--remap takes FROM:=TO with FROM one of {", ".join(known)}, got {rule!r}'
+                )
+            topics = replace(topics, **{known[name]: absolute(theirs)})
+        return topics
+
+    def handlers(self, session: Session) -> dict[str, Handler]:
+        """Return what to do with the messages of each topic of the bag."""
+        takes: dict[str, Callable[[Any, float], Any]] = {
+            'plots': session.plots,
+            'ownship': session.ownship,
+            'acquire': lambda msg, _: session.acquire(msg),
+            'cancel': lambda msg, _: session.cancel(msg.data),
+        }
+        names = {'plots': self.sensor}
+        return {
+            getattr(self, name): Handler(names.get(name, name), take)
+            for name, take in takes.items()
+        }
+
+
+def check_topics(bag: AnyReader, topics: Topics, path: Path | str) -> None:
+    """Raise BadBag unless the bag has plots, and every topic that we read is of its type."""
+    there = {connection.topic: connection.msgtype for connection in bag.connections}
+    inventory = ', '.join(
+        f'{name} ({bag.topics[name].msgtype}, {bag.topics[name].msgcount} messages)'
+        for name in sorted(there)
+    )
+    if topics.plots not in there:
+        raise BadBag(
+            f'{path} has no topic {topics.plots}; it has {inventory or "no topics"}. '
+            f'Say which are the {topics.sensor} with --remap {topics.sensor}:=/TOPIC'
+        )
+    for name, expected in TYPES.items():
+        topic = getattr(topics, name)
+        if there.get(topic, expected) != expected:
+            raise BadBag(
+                f'{path}: {topic} is {there[topic]}, expected {expected}; it has {inventory}'
+            )
+
+
+def messages_of(
+    bag: AnyReader, chosen: Sequence[Connection]
+) -> Iterator[tuple[Connection, int, bytes]]:
+    """Yield connection, time [ns] and bytes of each message; BadBag where the file is damaged."""
+    messages, count = bag.messages(chosen), 0
+    promised = sum(connection.msgcount for connection in chosen)
+    while True:
+        try:
+            message = next(messages)
+        except StopIteration:
+            break
+        except Exception as error:  # whatever damaged bytes lead the reader to
+            raise BadBag(f'damaged after {count} messages: {error}') from error
+        yield message
+        count += 1
+    if count < promised:
+        raise BadBag(f'damaged: {count} of {promised} messages can be read')

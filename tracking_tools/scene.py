@@ -1,0 +1,160 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a recording and its tracks show together: plots, tracks and the truth, if there is one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.message_types import seconds
+from msg_adapters.plots import to_plots
+from msg_adapters.table import Columns, to_columns
+from msg_adapters.track_rows import CONFIRMED
+from radar_tracker.config import SensorConfig
+from tracking_core.batches import Bools, Floats, Ints
+from tracking_tools.bags import open_bag
+from tracking_tools.replay_topics import Topics
+
+MAX_ROWS = 1_000_000  # of one message
+
+
+@dataclass(frozen=True)
+class Scene:
+    """
+    Rows of all messages.
+
+    `time` and `stamp`, that of the message, count from the beginning of the recording [s].
+    """
+
+    plots: Columns  # x, y; empty unless the tracks are in the frame of the sensor
+    published: Columns  # confirmed tracks, a row per track and message
+    truth: Columns  # id, x, y, z, vx, vy, vz, time; empty without a truth
+
+    @cached_property
+    def tracks(self) -> Columns:
+        """Confirmed tracks, a row per track and look: a message may come before the antenna."""
+        if not self.published:
+            return self.published
+        key = np.stack([self.published['id'], self.published['time'].round(6)], axis=1)
+        _, first = np.unique(key, axis=0, return_index=True)
+        return choose(self.published, np.sort(first))
+
+    @property
+    def has_truth(self) -> bool:
+        """Whether the recording says what was really there."""
+        return bool(len(self.truth.get('id', ())))
+
+
+def read_scene(
+    recording: Path | str,
+    tracks: Path | str,
+    topics: Topics | None = None,
+    sensor: SensorConfig | None = None,
+    fields: Mapping[str, str] | None = None,
+) -> Scene:
+    """
+    Return what the bags of plots and of tracks contain.
+
+    Parameters
+    ----------
+    recording : Path or str
+        Bag with plots and perhaps the truth.
+    tracks : Path or str
+        Bag with the track tables.
+    topics : Topics, optional
+        Where the messages are.
+    sensor : SensorConfig, optional
+        Conventions of the plots.
+    fields : mapping, optional
+        Our names of their fields to those of the messages.
+
+    """
+    topics, sensor = topics or Topics(), sensor or SensorConfig()
+    plots = read_rows(recording, topics.plots, lambda msg: _positions(msg, sensor, fields or {}))
+    truth = read_rows(recording, topics.truth, table_rows)
+    table = read_rows(tracks, topics.tracks, table_rows)
+    timed = [part['time'] for part in (plots, table) if len(part.get('time', ()))]
+    begin = float(min(times.min() for times in timed)) if timed else 0.0
+    plots, table, truth = (since(begin, part) for part in (plots, table, truth))
+    confirmed = table.get('status', np.zeros(0)) == CONFIRMED
+    same = frame_of(recording, topics.plots) == frame_of(tracks, topics.tracks)
+    return Scene(plots=plots if same else {}, published=choose(table, confirmed), truth=truth)
+
+
+def choose(columns: Columns, rows: Bools | Ints | slice) -> Columns:
+    """Return these rows of every column."""
+    return {name: values[rows] for name, values in columns.items()}
+
+
+def of_id(columns: Columns, number: int) -> Columns:
+    """Return the rows of one track or contact."""
+    return choose(columns, columns['id'] == number)
+
+
+def turn_rate(path: Columns) -> Floats:
+    """Return how fast a path's course turns at each of its rows [rad/s], anticlockwise."""
+    if len(path['time']) < 2:
+        return np.zeros(len(path['time']))
+    course = np.unwrap(np.arctan2(path['vy'], path['vx']))
+    return np.asarray(np.gradient(course, path['time']))
+
+
+def read_rows(path: Path | str, topic: str, convert: Callable[[Any], Columns]) -> Columns:
+    """Return the rows of all messages on a topic; empty if there is none."""
+    tables: list[Columns] = []
+    with open_bag(path) as bag:
+        chosen = [connection for connection in bag.connections if connection.topic == topic]
+        if not chosen:
+            return {}
+        for connection, _, raw in bag.messages(chosen):
+            columns = convert(bag.deserialize(raw, connection.msgtype))
+            if len(columns['time']):
+                tables.append(columns)
+    common = set.intersection(*(set(table) for table in tables)) if tables else set()
+    return {name: np.concatenate([table[name] for table in tables]) for name in sorted(common)}
+
+
+def frame_of(path: Path | str, topic: str) -> str:
+    """Return the frame of the first message on a topic, '' without one."""
+    with open_bag(path) as bag:
+        chosen = [connection for connection in bag.connections if connection.topic == topic]
+        for connection, _, raw in bag.messages(chosen) if chosen else ():
+            msg: Any = bag.deserialize(raw, connection.msgtype)
+            return str(msg.header.frame_id).lstrip('/')
+    return ''
+
+
+def table_rows(msg: Any) -> Columns:
+    """Return the columns of a table, with the time of each row and of the message [s]."""
+    columns = to_columns(msg, MAX_ROWS)
+    offset = columns.get('time', np.zeros(msg.width * msg.height))
+    stamp = np.full(len(offset), seconds(msg.header.stamp))
+    return {**columns, 'time': stamp + offset.astype(np.float64), 'stamp': stamp}
+
+
+def _positions(msg: Any, sensor: SensorConfig, fields: Mapping[str, str]) -> Columns:
+    """Return where a message's plots are in plan; of a bad message nothing."""
+    try:
+        plots = to_plots(msg, sensor, MAX_ROWS, fields).plots
+    except ValueError:
+        return {'time': np.zeros(0)}
+    level = plots.range * np.cos(np.nan_to_num(plots.elevation))
+    x, y = level * np.cos(plots.azimuth), level * np.sin(plots.azimuth)
+    is_polar = np.isfinite(plots.range)
+    return {
+        'x': np.where(is_polar, x, plots.position[:, 0]),
+        'y': np.where(is_polar, y, plots.position[:, 1]),
+        'time': plots.time,
+    }
+
+
+def since(begin: float, part: Columns) -> Columns:
+    """Return the rows with times that count from the beginning [s]."""
+    times: Columns = {name: part[name] - begin for name in ('time', 'stamp') if name in part}
+    return {**part, **times}

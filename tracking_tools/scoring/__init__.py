@@ -1,0 +1,43 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How good are the tracks? Measures of tracks against truth, without ROS.
+
+Read ``records`` (what is compared), ``matching`` (who is whose), ``continuity`` and ``accuracy``
+(how well), ``gospa`` (all in one figure) and ``score`` (everything at once) in this order.
+"""
+
+from tracking_tools.scoring.accuracy import Accuracy, plot_error, track_error
+from tracking_tools.scoring.continuity import Continuity, continuity
+from tracking_tools.scoring.gospa import gospa, gospa_of_scans, GospaParts
+from tracking_tools.scoring.matching import match, Matches
+from tracking_tools.scoring.records import (
+    confirmed_rows,
+    join_rows,
+    PlotRows,
+    Targets,
+    TrackRows,
+    Truth,
+)
+from tracking_tools.scoring.score import Score, score
+
+__all__ = [
+    'Accuracy',
+    'Continuity',
+    'GospaParts',
+    'Matches',
+    'PlotRows',
+    'Score',
+    'Targets',
+    'TrackRows',
+    'Truth',
+    'confirmed_rows',
+    'continuity',
+    'gospa',
+    'gospa_of_scans',
+    'join_rows',
+    'match',
+    'plot_error',
+    'score',
+    'track_error',
+]

@@ -1,0 +1,106 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which track follows which target?
+
+Scan by scan the confirmed tracks are matched to the targets, one to one, so that the distances
+within the match radius sum up to the least; each track is compared with the truth at the time of
+its own state.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from tracking_core.batches import Bools, Floats, Ints
+from tracking_core.rows import take
+from tracking_tools.scoring.records import TrackRows, Truth
+
+
+@dataclass(frozen=True)
+class Matches:
+    """K matches of a track row and a target, sorted by scan."""
+
+    row: Ints  # (K,) of the track rows
+    scan: Ints  # (K,)
+    track: Ints  # (K,) id
+    target: Ints  # (K,) id
+    distance: Floats  # (K,) [m]
+    position: Floats  # (K, d) of the target at the time of the row [m]
+    velocity: Floats  # (K, d) [m/s]
+    turning: Bools  # (K,)
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+
+def candidates(rows: TrackRows, truth: Truth, radius: float, slack: float) -> Matches:
+    """
+    Find all pairs of row and target within the radius, sorted by scan.
+
+    Parameters
+    ----------
+    rows : TrackRows
+        What the tracker said.
+    truth : Truth
+        Of all targets.
+    radius : float
+        Farther than this nothing belongs together [m].
+    slack : float
+        For so long before and after its samples a target goes straight on [s].
+
+    """
+    found = [_near(rows, truth.target(target), radius, slack) for target in np.unique(truth.id)]
+    if not found:
+        found = [_near(take(rows, slice(0, 0)), truth, radius, slack)]
+    joined = Matches(
+        *(np.concatenate([getattr(part, name) for part in found]) for name in _FIELDS)
+    )
+    return take(joined, np.lexsort((joined.row, joined.scan)))
+
+
+_FIELDS = ('row', 'scan', 'track', 'target', 'distance', 'position', 'velocity', 'turning')
+
+
+def _near(rows: TrackRows, target: Truth, radius: float, slack: float) -> Matches:
+    if len(target.time) == 0:
+        none, space = np.zeros(0, np.int64), np.zeros((0, rows.position.shape[1]))
+        return Matches(none, none, none, none, np.zeros(0), space, space, np.zeros(0, bool))
+    begin, end = target.time[0] - slack, target.time[-1] + slack
+    row = np.flatnonzero((rows.time >= begin) & (rows.time <= end))
+    place = target.at(rows.time[row])
+    distance = np.linalg.norm(rows.position[row] - place.position, axis=1)
+    near = distance <= radius
+    row = row[near]
+    return Matches(
+        row, rows.scan[row], rows.id[row], np.full(len(row), target.id[0]), distance[near],
+        place.position[near], place.velocity[near], place.turning[near],
+    )  # fmt: skip
+
+
+def match(rows: TrackRows, truth: Truth, radius: float, slack: float = 0.0) -> Matches:
+    """Match tracks and targets one to one in every scan; parameters as for `candidates`."""
+    near = candidates(rows, truth, radius, slack)
+    edges = np.flatnonzero(np.diff(near.scan)) + 1
+    chosen = [
+        part[_assign(near.row[part], near.target[part], near.distance[part], radius)]
+        for part in np.split(np.arange(len(near)), edges)
+    ]
+    return take(near, np.concatenate(chosen))
+
+
+def _assign(row: Ints, target: Ints, distance: Floats, radius: float) -> Ints:
+    """Return which pairs of one scan are the best one-to-one choice."""
+    rows, i = np.unique(row, return_inverse=True)
+    targets, j = np.unique(target, return_inverse=True)
+    if len(rows) == len(row) == len(targets):
+        return np.arange(len(row))
+    cost = np.zeros((len(rows), len(targets)))
+    pair = np.full(cost.shape, -1)
+    # An unmatched target costs the radius, so a match pays whatever its distance.
+    cost[i, j], pair[i, j] = distance - radius, np.arange(len(row))
+    chosen = pair[linear_sum_assignment(cost)]
+    return np.asarray(np.sort(chosen[chosen >= 0]))

@@ -1,0 +1,152 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is compared? What the tracker said scan by scan, and where everything really was."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from msg_adapters.tracks import AXES, kinematics
+from tracking_core.batches import Bools, Floats, Ints, Tracks
+from tracking_core.rows import take
+
+FALSE_PLOT = -1
+
+
+@dataclass(frozen=True)
+class TrackRows:
+    """Confirmed tracks as they were published: N rows, one for each track and scan."""
+
+    scan: Ints  # (N,) number of the scan
+    id: Ints  # (N,)
+    time: Floats  # (N,) of the state [s]
+    position: Floats  # (N, d) [m]
+    velocity: Floats  # (N, d) [m/s]
+    covariance: Floats  # (N, 2 d, 2 d) positions first, then velocities
+
+    def __len__(self) -> int:
+        return len(self.id)
+
+    @property
+    def is_new(self) -> Bools:
+        """Which rows (N,) tell of another look than the rows of the track before it."""
+        _, first = np.unique(np.stack([self.id, self.time], axis=1), axis=0, return_index=True)
+        new = np.zeros(len(self), bool)
+        new[first] = True
+        return new
+
+
+def confirmed_rows(scan: int, tracks: Tracks, output: str = 'mmse') -> TrackRows:
+    """Return the confirmed tracks as rows of this scan; `output` as the tracker's."""
+    tracks = take(tracks, tracks.confirmed)
+    state, covariance = kinematics(tracks, output)
+    d = sum(plane.mean.shape[-1] // 2 for plane in tracks.planes)
+    at = np.concatenate([np.arange(d), AXES + np.arange(d)])
+    return TrackRows(
+        np.full(len(tracks), scan), tracks.id, tracks.time, state[:, at[:d]], state[:, at[d:]],
+        covariance[:, at[:, None], at],
+    )  # fmt: skip
+
+
+def join_rows(parts: Sequence[TrackRows]) -> TrackRows:
+    """Return the rows of all scans in one batch; at least one part."""
+    return TrackRows(
+        *(
+            np.concatenate([getattr(part, name) for part in parts])
+            for name in ('scan', 'id', 'time', 'position', 'velocity', 'covariance')
+        )
+    )
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where one target was at the times asked for."""
+
+    position: Floats  # (N, d) [m]
+    velocity: Floats  # (N, d) [m/s]
+    turning: Bools  # (N,)
+
+
+@dataclass(frozen=True)
+class Truth:
+    """Samples of the real trajectories, sorted by target, then time."""
+
+    id: Ints  # (K,)
+    time: Floats  # (K,) [s]
+    position: Floats  # (K, d) [m]
+    velocity: Floats  # (K, d) [m/s]
+    turning: Bools  # (K,) whether the target manoeuvres there
+
+    @staticmethod
+    def of(
+        ids: Ints, time: Floats, position: Floats, velocity: Floats, turning: Bools | None = None
+    ) -> Truth:
+        """Return samples in any order as truth; without `turning` nobody turns."""
+        turning = np.zeros(len(ids), bool) if turning is None else turning
+        order = np.lexsort((time, ids))
+        return Truth(ids[order], time[order], position[order], velocity[order], turning[order])
+
+    def target(self, target: int) -> Truth:
+        """Return the samples of one target."""
+        return take(self, slice(*np.searchsorted(self.id, [target, target + 1])))
+
+    def at(self, times: Floats) -> Places:
+        """
+        Return where a single target was; beyond its samples it goes straight on.
+
+        Between samples positions follow the cubic through positions and velocities.
+        """
+        after = np.clip(np.searchsorted(self.time, times), 1, max(len(self.time) - 1, 1))
+        before, after = after - 1, np.minimum(after, len(self.time) - 1)
+        inner = np.clip(times, self.time[0], self.time[-1])
+        span = np.maximum(self.time[after] - self.time[before], 1e-9)[:, None]
+        s = (inner - self.time[before])[:, None] / span
+        p0, p1 = self.position[before], self.position[after]
+        v0, v1 = self.velocity[before], self.velocity[after]
+        position = p0 + s * s * (3.0 - 2.0 * s) * (p1 - p0)
+        position += span * s * (1.0 - s) * ((1.0 - s) * v0 - s * v1)
+        velocity = v0 + s * (v1 - v0)
+        position += velocity * (times - inner)[:, None]
+        nearer = np.where(s[:, 0] < 0.5, before, after)
+        return Places(position, velocity, self.turning[nearer])
+
+
+@dataclass(frozen=True)
+class Targets:
+    """Which targets a tracker ought to hold, and from which scan to which."""
+
+    id: Ints  # (J,)
+    first_scan: Ints  # (J,)
+    last_scan: Ints  # (J,) inclusive
+
+    @staticmethod
+    def of_plots(contact: Ints, scan: Ints, nth: int = 4) -> Targets:
+        """Return those with `nth` plots or more, from their nth plot to the last."""
+        ids, first, last = [], [], []
+        for target in np.unique(contact[contact != FALSE_PLOT]):
+            scans = np.sort(scan[contact == target])
+            if len(scans) >= nth:
+                ids.append(target)
+                first.append(scans[nth - 1])
+                last.append(scans[-1])
+        return Targets(*(np.array(values, np.int64) for values in (ids, first, last)))
+
+    def wanted(self, target: Ints, scan: Ints) -> Bools:
+        """Return for pairs of target and scan whether the target ought to be held there."""
+        if len(self.id) == 0:
+            return np.zeros(len(target), bool)
+        row = np.clip(np.searchsorted(self.id, target), 0, len(self.id) - 1)
+        inside = (scan >= self.first_scan[row]) & (scan <= self.last_scan[row])
+        return np.asarray((self.id[row] == target) & inside)
+
+
+@dataclass(frozen=True)
+class PlotRows:
+    """Plots in the tracking frame with the target that made them, for scoring only."""
+
+    time: Floats  # (M,) [s]
+    position: Floats  # (M, d) [m]
+    contact: Ints  # (M,) id of the target, `FALSE_PLOT` for none

@@ -1,0 +1,69 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""All measures of one recording at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracking_core.rows import take
+from tracking_tools.scoring.accuracy import Accuracy, plot_error, track_error
+from tracking_tools.scoring.continuity import Continuity, continuity
+from tracking_tools.scoring.matching import candidates, match
+from tracking_tools.scoring.records import PlotRows, Targets, TrackRows, Truth
+
+
+@dataclass(frozen=True)
+class Score:
+    """How well one recording was tracked."""
+
+    continuity: Continuity
+    tracks: Accuracy
+    plots: Accuracy
+
+    @property
+    def gain(self) -> float:
+        """Position error of the tracks per position error of the plots."""
+        return self.tracks.rmse / self.plots.rmse
+
+
+def score(
+    rows: TrackRows,
+    truth: Truth,
+    plots: PlotRows,
+    targets: Targets,
+    radius: float,
+    slack: float = 0.0,
+    has_velocity: bool = True,
+) -> Score:
+    """
+    Compare tracks with truth.
+
+    Parameters
+    ----------
+    rows : TrackRows
+        Confirmed tracks, scan by scan.
+    truth : Truth
+        Where the targets were.
+    plots : PlotRows
+        What the tracker got, for comparison.
+    targets : Targets
+        What ought to be held, and when.
+    radius : float
+        Match radius [m].
+    slack : float
+        For so long beyond its samples a target goes straight on [s].
+    has_velocity : bool
+        Whether the truth tells velocities that can be compared.
+
+    """
+    matches = match(rows, truth, radius, slack)
+    near = np.unique(candidates(rows, truth, radius, slack).track)
+    wanted = take(matches, targets.wanted(matches.target, matches.scan))
+    return Score(
+        continuity(rows, matches, near, targets),
+        track_error(rows, wanted, has_velocity),
+        plot_error(plots, truth),
+    )
