@@ -6,6 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
+import re
+import textwrap
 
 import numpy as np
 
@@ -78,16 +81,38 @@ def intervals(
 
 
 def table(claims: tuple[Claim, ...], values: Figures, bounds: Mapping[str, Floats]) -> str:
-    """Return a Markdown table: figure, paper, expected, ours with interval, verdict."""
+    """
+    Return a Markdown table: figure, paper, expected, ours with interval, verdict.
+
+    A figure without bounds is one that runs do not scatter, such as a place on a grid.
+    """
     lines = [
         '| figure | paper | expected | ours | 95 % interval | verdict |',
         '|---|---|---|---|---|---|',
     ]
     for claim in claims:
-        low, high = bounds[claim.name]
+        limits = bounds.get(claim.name, ())
+        span = ' to '.join(f'{limit:.4g}' for limit in limits)
         verdict = 'holds' if claim.holds(values[claim.name]) else '**does not hold**'
         lines.append(
             f'| {claim.meaning} | {claim.paper} | {claim.limits} | {values[claim.name]:.4g} '
-            f'| {low:.4g} to {high:.4g} | {verdict} |'
+            f'| {span} | {verdict} |'
         )
     return '\n'.join(lines)
+
+
+def template(name: str) -> str:
+    """Return the text of a report with the names of figures in braces."""
+    return (Path(__file__).parent / 'templates' / f'{name}.md').read_text(encoding='utf-8')
+
+
+def wrapped(report: str, width: int = 100) -> str:
+    """Return a report with its paragraphs and list items broken anew, figures filled in."""
+    blocks = re.split(r'(\n\n+|\n(?=[-|#!]))', report)
+    return ''.join(
+        block if block[:1] in '|#!\n' else textwrap.fill(
+            re.sub(r'\s*\n\s*', ' ', block), width, break_long_words=False,
+            break_on_hyphens=False, subsequent_indent='  ' if block.startswith('- ') else '',
+        )
+        for block in blocks
+    ).rstrip() + '\n'  # fmt: skip

@@ -70,10 +70,16 @@ def two_point_start(planes: Sequence[Plane], measured: Measured, dt: float) -> l
 
 
 def run(
-    planes: Sequence[Plane], measured: Measured, dt: float, quiet: bool = True
+    planes: Sequence[Plane],
+    measured: Measured,
+    dt: float,
+    quiet: bool = True,
+    start: Sequence[Mixture] | None = None,
 ) -> list[list[Step]]:
     """
     Return the steps of every plane for the contacts 2, 3, ..., association being certain.
+
+    With a start given for contact 0 they are those of the contacts 1, 2, ...
 
     Parameters
     ----------
@@ -85,14 +91,17 @@ def run(
         Between two contacts [s].
     quiet : bool
         Show no progress bar.
+    start : sequence of Mixture, optional
+        Each plane after contact 0; without it tracks start from contacts 0 and 1.
 
     """
     K, T, _ = measured.position.shape
-    now = two_point_start(planes, measured, dt)
+    now = two_point_start(planes, measured, dt) if start is None else list(start)
+    first = 2 if start is None else 1
     track, nothing = np.arange(T), np.zeros(T)
     certain = Association(np.ones(T), nothing, np.zeros(T, bool))
     steps: list[list[Step]] = [[] for _ in planes]
-    for k in tqdm(range(2, K), desc='contacts', disable=quiet, leave=False):
+    for k in tqdm(range(first, K), desc='contacts', disable=quiet, leave=False):
         for p, plane in enumerate(planes):
             at = np.array(plane.coordinates)
             H = np.broadcast_to(_position_of(len(at)), (T, len(at), 2 * len(at)))

@@ -3,8 +3,8 @@
 """
 Does the mixed-Markov filter do what [ZHUK09] says? The table of scenario Z-0.
 
-Run ``python -m studies.zhuk_2009``; it prints the table and writes docs/results/zhuk_2009.md.
-Read ``z0.py`` for what the figures are.
+Run ``python -m studies.zhuk_2009``; it writes docs/results/zhuk_2009.md with its figures. Read
+``z0.py`` for what the figures are, ``z_scenes.py`` for the joint filter.
 """
 
 from __future__ import annotations
@@ -14,8 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-from studies.figures import about, at_least, at_most, intervals, table
-from studies.z0 import figures, play, SEED, SETTLED
+from studies import pictures
+from studies.figures import about, at_least, at_most, Figures, intervals, table, template, wrapped
+from studies.z0 import CONTACTS, figures, PERIOD, PLANES, play, Record, SEED, SETTLED
+from studies.z_scenes import joint_figures, position_errors, Z_0, Z_NEAR
+from tracking_core.batches import Floats, Ints
 
 RESULT = Path(__file__).parent.parent / 'docs' / 'results' / 'zhuk_2009.md'
 
@@ -48,59 +51,70 @@ CLAIMS = (
     at_least('gate all', 0.985, 'the same, all contacts, worst axis'),
 )
 
-REPORT = """# [ZHUK09] Mixed-Markov filter, scenario Z-0
-
-`python -m studies.zhuk_2009 --runs {runs}`: {runs} runs as one batch, seed {seed}. 95 % intervals
-are bootstrapped over runs. *Paper* is what the paper says, where it gives a figure; *expected* is
-from an independent implementation.
-
-## What does not hold
-
-- At the first contact of a manoeuvre the filter is worse than the plots alone. Error ratio of the
-  winning mode: {map first contact x:.2f} (x), {map first contact y:.2f} (y),
-  {map first contact z:.2f} (z); of the mixture: {mmse first contact x:.2f},
-  {mmse first contact y:.2f}, {mmse first contact z:.2f}.
-- The forecast sd of the vertical plane grows {map growth z:.2f} times, not 3 to 4 times.
-- The end of a climb is found within 3 contacts in {vertical release found:.1%} of the cases only.
-  Such late releases hold the vertical manoeuvre mode in {vertical manoeuvre while quiet:.2%} of
-  the quiet contacts, although it is newly chosen in {vertical false decisions:.2%} of them.
-- A gate that knows only the past holds {gate manoeuvre x:.1%} (x), {gate manoeuvre y:.1%} (y) and
-  {gate manoeuvre z:.1%} (z) of the plots of a manoeuvre, not the 99.7 % of 3 sigma.
-- During manoeuvres the error is only {saving:.1%} below that of the plots (mixture).
-
-## Figures
-
-{table}
-
-## What the figures are
-
-- Manoeuvre: contacts whose preceding interval overlaps a manoeuvre of either plane, and the 2
-  after them. Quiet: the rest from contact {settled} on.
-- Found: the probability of the manoeuvre mode crosses 0.5 at most 3 contacts after the change. The
-  delay is the mean over all changes that are found at all. A decision is false when the
-  probability comes to exceed 0.5 at a quiet contact.
-- Growth: RMS of the predicted sd from the second contact of a plane's manoeuvres to one after
-  their end, over that of the plane's quiet contacts; *winning mode* is the mode most probable
-  after the contact. Over which contacts the expected figures were taken is not known; over all
-  contacts of the manoeuvre and the 2 after it they are 5 to 13 % lower.
-- Gate: distance of the plot from the predicted mixture at most 3 sd of mixture plus plot noise, on
-  each axis.
-"""
+JOINT_CLAIMS = (
+    about('far joint manoeuvre', 1.0, 0.003, 'joint over decomposed RMSE, Z-0, manoeuvre'),
+    about('far joint quiet', 1.0, 0.003, 'the same, quiet'),
+    about('near joint manoeuvre', 0.926, 0.02, 'the same, Z-near, manoeuvre'),
+    about('near joint quiet', 0.947, 0.02, 'the same, quiet'),
+)
 
 
-def describe(runs: int, quiet: bool = True) -> str:
-    """Run the study and return its report as Markdown."""
+def joint(near: dict[str, Floats], far: dict[str, Floats], runs: Ints) -> Figures:
+    """Return what the joint filter gains on both scenes, from these runs."""
+    return {
+        f'{place} {name}': value
+        for place, errors, scene in (('near', near, Z_NEAR), ('far', far, Z_0))
+        for name, value in joint_figures(errors, scene, runs).items()
+    }
+
+
+def draw_probability(record: Record, path: Path) -> str:
+    """Draw the mean probability of the manoeuvre mode over time, manoeuvres shaded."""
+    figure, axes = pictures.panels(2, 1, height=2.2)
+    time = PERIOD * np.arange(CONTACTS)
+    for panel, (plane, spans) in zip(axes.flat, PLANES.items(), strict=True):
+        pictures.shade(panel, {str(span): span for span in spans})
+        probability = record.manoeuvre_probability[plane]
+        curves = {'mean of all runs': probability.mean(axis=1), 'run 0': probability[:, 0]}
+        pictures.lines(panel, time, curves, 'time [s]', 'manoeuvre mode [1]', plane)
+    return pictures.save(figure, path)
+
+
+def draw_forecast(record: Record, path: Path) -> str:
+    """Draw the sd of the forecast and the errors over time."""
+    figure, axes = pictures.panels(3, 1, height=2.2)
+    time = PERIOD * np.arange(CONTACTS)
+    for axis, panel in enumerate(axes.flat):
+        curves = {
+            'forecast sd, winning mode': pictures.rms(record.predicted_sd['map'][..., axis]),
+            'forecast sd, mixture': pictures.rms(record.predicted_sd['mmse'][..., axis]),
+            'error, plots': pictures.rms(record.error['plot'][..., axis]),
+            'error, mixture': pictures.rms(record.error['mmse'][..., axis]),
+        }
+        pictures.lines(panel, time, curves, 'time [s]', f'{"xyz"[axis]}, RMS [m]')
+    return pictures.save(figure, path)
+
+
+def describe(runs: int, folder: Path, quiet: bool = True) -> str:
+    """Run the study, write its figures into the folder and return the report as Markdown."""
     record = play(runs, quiet)
-    values = figures(record, np.arange(runs))
-    bounds = intervals(lambda rows: figures(record, rows), runs, np.random.default_rng(SEED))
-    return REPORT.format_map(
+    both = position_errors(Z_NEAR, runs, quiet), position_errors(Z_0, runs, quiet)
+
+    def all_figures(rows: Ints) -> Figures:
+        return {**figures(record, rows), **joint(*both, rows)}
+
+    values = all_figures(np.arange(runs))
+    bounds = intervals(all_figures, runs, np.random.default_rng(SEED))
+    return template('zhuk_2009').format_map(
         {
             **values,
             'runs': runs,
             'seed': SEED,
             'settled': SETTLED,
             'saving': 1.0 - values['mmse error manoeuvre'],
-            'table': table(CLAIMS, values, bounds),
+            'table': table(CLAIMS + JOINT_CLAIMS, values, bounds),
+            'probability': draw_probability(record, folder / 'zhuk_2009_modes.png'),
+            'forecast': draw_forecast(record, folder / 'zhuk_2009_forecast.png'),
         }
     )
 
@@ -111,9 +125,8 @@ def main() -> None:
     parser.add_argument('--runs', type=int, default=500)
     parser.add_argument('--output', type=Path, default=RESULT)
     arguments = parser.parse_args()
-    report = describe(arguments.runs, quiet=False)
-    arguments.output.parent.mkdir(parents=True, exist_ok=True)
-    arguments.output.write_text(report)
+    report = describe(arguments.runs, arguments.output.parent, quiet=False)
+    arguments.output.write_text(wrapped(report))
     print(report)
 
 
