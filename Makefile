@@ -14,15 +14,18 @@ ARGS ?=
 unexport AMENT_PREFIX_PATH LD_LIBRARY_PATH PYTHONPATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test coverage lint clean
+.PHONY: help setup demo demo-sonar test coverage lint clean
 
 help: ## say what can be made
-	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 setup: $(READY) ## make the environment .venv if it is missing or out of date
 
 demo: $(READY) ## play a recorded scene through the live radar node and draw what came out
 	$(BIN)/python -m tracking_tools.demo $(ARGS)
+
+demo-sonar: $(READY) ## the same for the sonar node: bearings through a crossing
+	$(BIN)/python -m tracking_tools.demo_sonar $(ARGS)
 
 test: $(READY) ## run the whole test suite
 	$(BIN)/python -m pytest $(ARGS)

@@ -66,6 +66,7 @@ setup(
             'radar_tracker = radar_tracker.node:main',
             'replay = tracking_tools.replay:main',
             'simulate = tracking_tools.simulate:main',
+            'sonar_tracker = sonar_tracker.node:main',
         ],
     },
 )

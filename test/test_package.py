@@ -18,7 +18,8 @@ ROOT = Path(__file__).parent.parent
 NAME = 'contact_tracking'
 PACKAGES = ('msg_adapters', 'radar_tracker', 'sonar_tracker', 'tracking_core', 'tracking_tools')
 HEADER = ['# Copyright 2026 the contact_tracking authors', '# SPDX-License-Identifier: Apache-2.0']
-LONG_FILES: dict[str, str] = {}  # path: the reason why 200 lines are not enough
+# path: the reason why 200 lines are not enough
+LONG_FILES = {'tracking_core/batches.py': 'the glossary: every batch in one place'}
 NOT_IN_ROSDEP = {'setuptools', 'rosbags'}  # part of Python there; has a pip key only
 IMPORT_NAMES = {'pyyaml': 'yaml'}
 LAUNCH = {'launch', 'launch_ros'}  # no wheels: present on a ROS machine only
@@ -165,6 +166,10 @@ def test_every_file_has_the_header() -> None:
 
 
 def test_files_are_short() -> None:
-    """A file of 200 lines or more holds a second idea; an exception has a reason."""
-    lengths = {str(path): len((ROOT / path).read_text().splitlines()) for path in _sources()}
-    assert {path for path, length in lengths.items() if length >= 200} == set(LONG_FILES)
+    """A file of 200 lines, a test of 300, holds a second idea; an exception has a reason."""
+    long = {
+        str(path)
+        for path in _sources()
+        if len((ROOT / path).read_text().splitlines()) >= (300 if path.parts[0] == 'test' else 200)
+    }
+    assert long == set(LONG_FILES)
