@@ -14,6 +14,7 @@ from tracking_core.birth import with_speed_prior
 from tracking_core.composition import Density
 from tracking_core.initiation import one_point, plane_start, two_point
 from tracking_core.lifecycle_config import InitiationConfig
+from tracking_core.new_contacts import share_of_new
 
 INTERVAL = 4.0
 LIMITS = InitiationConfig(speed_max=300.0, climb_max=20.0)
@@ -94,11 +95,11 @@ def test_two_point_existence_equals_bayes() -> None:
     # A contact's velocity is Gaussian with the variance of an even one on the disc of the limit.
     spread = 2.0 * old.covariance[0] + 300.0**2 / 4.0 * 4.0**2 * np.eye(2)
     second = multivariate_normal(np.zeros(2), spread).pdf(new.position)
-    contact = 0.8 * 0.25
-    weights = np.array([*(contact * 0.9 * second / 4e-7), contact * 0.1, 1.0 - contact])
+    likely = 0.9 * second / 4e-7
+    contact = 0.8 * share_of_new(0.25, np.array([likely.sum() - 0.9]), old.free)
+    weights = np.array([*(contact * likely), contact * 0.1, 1.0 - contact])
     assert_array_equal(starts.plot, [0, 1, 2])
-    # One plot's evidence moves the expected share of new contacts by less than 1 in 200.
-    assert_allclose(starts.existence_probability, (weights / weights.sum())[:3], rtol=5e-3)
+    assert_allclose(starts.existence_probability, (weights / weights.sum())[:3], rtol=1e-12)
 
 
 def test_two_point_counts_the_looks_between() -> None:
