@@ -151,18 +151,14 @@ class GainFilter:
 
     def noise_of_pairs(self, mixture: Mixture, track: Ints, innovations: Innovations) -> Floats:
         """
-        Return R (P, a, a) of the plots, S - C^T P^-1 C with C = P H^T.
+        Return R (P, a, a) of the plots.
 
         An axis that a plot does not have gets the noise of the track's last plot.
         """
         a = self.axes
-        C = innovations.cross_covariance[:, 0, :, :a]
-        explained = np.swapaxes(C, 1, 2) @ np.linalg.solve(mixture.covariance[track, 0], C)
-        has = (C != 0.0).any(axis=1)
-        R = innovations.covariance[:, 0, :a, :a] - explained
-        return np.where(
-            has[:, :, None] & has[:, None, :], symmetrise(R), self.plot_noise(mixture)[track]
-        )
+        has = (innovations.cross_covariance[:, 0, :, :a] != 0.0).any(axis=1)
+        R = innovations.noise[:, :a, :a]
+        return np.where(has[:, :, None] & has[:, None, :], R, self.plot_noise(mixture)[track])
 
     def _gain(
         self, alpha: Floats, mixture: Mixture, track: Ints, innovations: Innovations

@@ -231,6 +231,7 @@ class Innovations:
     distance: Floats  # (P, J) Mahalanobis squared
     log_likelihood: Floats  # (P, J) of the plot given track and mode
     cross_covariance: Floats  # (P, J, n, d) of state and plot, P H^T
+    noise: Floats  # (P, d, d) covariance R of the plot itself
 
 
 @dataclass(frozen=True)

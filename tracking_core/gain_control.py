@@ -117,6 +117,7 @@ def of_mode(innovations: Innovations, mode: int) -> Innovations:
         innovations.distance[:, only],
         innovations.log_likelihood[:, only],
         innovations.cross_covariance[:, only],
+        innovations.noise,
     )
 
 

@@ -44,16 +44,18 @@ def innovate(mixture: Mixture, track: Ints, measurement: Measurement) -> Innovat
     cross = cross.reshape(P, J, n, H.shape[1])
     S = H[:, None] @ cross + measurement.covariance[:, None]
     nu = measurement.value[:, None] - mean @ H_transposed
-    return from_innovation(nu, S, cross, measurement.absent)
+    return from_innovation(nu, S, cross, measurement.covariance, measurement.absent)
 
 
-def from_innovation(nu: Floats, S: Floats, cross: Floats, absent: Ints) -> Innovations:
+def from_innovation(
+    nu: Floats, S: Floats, cross: Floats, noise: Floats, absent: Ints
+) -> Innovations:
     """Return distances and likelihoods of innovations nu (P, J, d) with covariance S."""
     S_inverse, determinant = inverse(S)
     distance = np.einsum('pjd,pjde,pje->pj', nu, S_inverse, nu)
     present = nu.shape[-1] - absent[:, None]
     log_likelihood = -0.5 * (distance + np.log(determinant) + present * _LOG_TWO_PI)
-    return Innovations(nu, S, distance, log_likelihood, cross)
+    return Innovations(nu, S, distance, log_likelihood, cross, noise)
 
 
 def mixture_log_likelihood(mode_probability: Floats, innovations: Innovations) -> Floats:

@@ -25,7 +25,11 @@ def test_likelihood_of_zhuk_eq_24_needs_minus_inverse_and_dimension() -> None:
         S = root @ root.T + np.eye(d)
         nu = RNG.normal(0.0, 2.0, (5, 1, d))
         ours = from_innovation(
-            nu, np.tile(S, (5, 1, 1, 1)), np.zeros((5, 1, 4, d)), np.zeros(5, np.int64)
+            nu,
+            np.tile(S, (5, 1, 1, 1)),
+            np.zeros((5, 1, 4, d)),
+            np.tile(S, (5, 1, 1)),
+            np.zeros(5, np.int64),
         ).log_likelihood[:, 0]
         assert_allclose(ours, multivariate_normal(cov=S).logpdf(nu[:, 0]), rtol=1e-9)
         near, far = np.array([[0.1] * d, [10.0] * d])
