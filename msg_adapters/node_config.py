@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from msg_adapters.kinds.menu import check_type, POINT_CLOUD, TYPES
 from tracking_core.config import parameter, validate
 
 
@@ -36,6 +37,9 @@ class NodeConfig:
     autostart: bool = parameter(
         True, unit='', doc='configure and activate at once, without a lifecycle manager'
     )
+    input_type: str = parameter(
+        POINT_CLOUD, unit='', doc=f'message type of the plots or bearings: {", ".join(TYPES)}'
+    )
     time_jump_threshold: float = parameter(
         10.0, unit='s', doc='a stamp further off is refused until several in a row agree',
         low=0.01, high=1e6,
@@ -48,3 +52,7 @@ class NodeConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
+        try:
+            check_type(self.input_type)
+        except ValueError as error:
+            raise ValueError(f'NodeConfig.input_type: {error}') from error

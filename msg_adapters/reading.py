@@ -12,9 +12,10 @@ import numpy as np
 
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import find_fields, Names
+from msg_adapters.kinds.menu import columns_of
 from msg_adapters.message_types import NANOSECONDS, seconds
 from msg_adapters.row_checks import OUT_OF_RANGE
-from msg_adapters.table import Columns, to_columns
+from msg_adapters.table import Columns
 from tracking_core.batches import Bearings, Bools, Floats, Plots
 
 ABSOLUTE_TIME = 1e8  # s; a larger `time` counts from the epoch, not from the stamp
@@ -50,19 +51,21 @@ class Fields:
 
 def read_fields(msg: Any, max_rows: int, names: Names, overrides: Mapping[str, str]) -> Fields:
     """
-    Return a PointCloud2 by the names of our fields.
+    Return a message of any type on the menu by the names of our fields.
 
     Raises
     ------
     BadMessage
-        For sizes that do not fit, and for fields that the user named and that are not there.
+        For another type, sizes that do not fit, and for fields that the user named and that are
+        not there.
 
     """
-    columns = to_columns(msg, max_rows)
+    columns = columns_of(msg, max_rows)
     mapping = find_fields(columns, names, overrides)
     values = {ours: _numbers(columns, theirs) for ours, theirs in mapping.items()}
     stamp = seconds(msg.header.stamp)
-    offset = _offset(values, columns, mapping, stamp, msg.width * msg.height)
+    rows = len(next(iter(columns.values()))) if columns else msg.width * msg.height
+    offset = _offset(values, columns, mapping, stamp, rows)
     return Fields(columns, mapping, values, stamp, stamp + offset, msg.header.frame_id.lstrip('/'))
 
 

@@ -93,7 +93,7 @@ class Session:
 
         Parameters
         ----------
-        msg : PointCloud2
+        msg : PointCloud2, or another type on the menu of ``kinds``
             Plots of a radar, marks of a sonar.
         received : float
             When it came, by a clock that never goes back [s].

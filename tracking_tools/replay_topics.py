@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import Connection
 
+from msg_adapters.kinds.menu import check_type
 from msg_adapters.session import Session
 from tracking_tools.bags import absolute
 from tracking_tools.sensors import Sensor, SENSORS
 
 TYPES = {
-    'plots': 'sensor_msgs/msg/PointCloud2',
     'ownship': 'nav_msgs/msg/Odometry',
     'acquire': 'geometry_msgs/msg/PointStamped',
     'cancel': 'std_msgs/msg/UInt32',
@@ -105,6 +105,13 @@ def check_topics(bag: AnyReader, topics: Topics, path: Path | str) -> None:
             f'{path} has no topic {topics.plots}; it has {inventory or "no topics"}. '
             f'Say which are the {topics.sensor} with --remap {topics.sensor}:=/TOPIC'
         )
+    try:
+        check_type(there[topics.plots])
+    except ValueError as error:
+        raise BadBag(
+            f'{path}: {topics.plots} is {there[topics.plots]}, expected '
+            f'sensor_msgs/msg/PointCloud2 or another type of plots: {error}; it has {inventory}'
+        ) from error
     for name, expected in TYPES.items():
         topic = getattr(topics, name)
         if there.get(topic, expected) != expected:

@@ -10,8 +10,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 
+from msg_adapters.kinds.menu import available
 from msg_adapters.live.topics import LiveTopics, MakeSession
 from msg_adapters.node import NotStarted
 from msg_adapters.parameters import Configs, NodeParameters
@@ -21,9 +23,10 @@ class TrackerNode(LifecycleNode):
     """
     Plots of one sensor to tracks.
 
-    Subscribes to the sensor's topic (PointCloud2), `ownship` (Odometry), `acquire` (PointStamped)
-    and `cancel` (UInt32); publishes `~/tracks` (PointCloud2), `~/odometry` (Odometry), `~/markers`
-    (MarkerArray) and `/diagnostics`; serves `~/reset` (Trigger).
+    Subscribes to the sensor's topic (PointCloud2 or another `input_type`), `ownship` (Odometry),
+    `acquire` (PointStamped) and `cancel` (UInt32); publishes `~/tracks` (PointCloud2),
+    `~/odometry` (Odometry), `~/markers` (MarkerArray) and `/diagnostics`;
+    serves `~/reset` (Trigger).
 
     Parameters
     ----------
@@ -42,6 +45,12 @@ class TrackerNode(LifecycleNode):
         self._live: LiveTopics | None = None
         self._settings = NodeParameters(self, configs, self._reconfigure)
         self._settings.tell()
+        self.declare_parameter(
+            'input_types_available', available(), ignore_override=True,
+            descriptor=ParameterDescriptor(
+                description='what input_type can be here', read_only=True
+            ),
+        )  # fmt: skip
         _, node_config = self._settings.configs
         if node_config.autostart:
             self._start()

@@ -17,6 +17,7 @@ from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
 from msg_adapters.diagnostics import to_diagnostics
+from msg_adapters.kinds.menu import message_class
 from msg_adapters.live.display import Display
 from msg_adapters.live.health import Health, QUIET
 from msg_adapters.message_types import rclpy_types, seconds
@@ -55,7 +56,7 @@ class LiveTopics:
 
     def __init__(self, node: Any, make_session: MakeSession, configs: Configs) -> None:
         self._node, self._node_config = node, configs[1]
-        self._types = rclpy_types()
+        self._types, input_class = rclpy_types(), message_class(configs[1].input_type)
         self._session = make_session(*configs, self._types, node.get_logger())
         self._topic = self._session.instrument.topic
         self._display = Display(self._types)
@@ -63,7 +64,7 @@ class LiveTopics:
         self._level, self._is_active, self._is_heard, self._is_late = '', False, False, False
         self._inputs = {  # of two that are there, the executor takes the first
             'ownship': subscribe(node, Odometry, 'ownship', self._on_ownship),
-            self._topic: subscribe(node, PointCloud2, self._topic, self._on_plots),
+            self._topic: subscribe(node, input_class, self._topic, self._on_plots),
             'acquire': subscribe(node, PointStamped, 'acquire', self._on_acquire),
             'cancel': subscribe(node, UInt32, 'cancel', self._on_cancel),
         }
@@ -190,10 +191,9 @@ class LiveTopics:
             level, text = 'OK', 'not active'
         if level == self._level:
             return
-        self._level = level
-        values = self._health.values(self._session, now)
-        header = self._types.Header(stamp=self._node.get_clock().now().to_msg(), frame_id='')
+        self._level, values = level, self._health.values(self._session, now)
         name = f'{self._node.get_name()}: tracking'
+        header = self._types.Header(stamp=self._node.get_clock().now().to_msg(), frame_id='')
         self._diagnostics.publish(
             to_diagnostics(name, level, text, values=values, header=header, types=self._types)
         )

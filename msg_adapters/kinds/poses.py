@@ -1,0 +1,42 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How poses become columns: positions for a radar, directions for a sonar."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.table import Columns
+
+YAW = 35  # place of the yaw variance in a row-major 6 x 6 covariance
+
+
+def positions(points: list[Any]) -> Columns:
+    """Return x, y and z [m], each (M,)."""
+    rows = [[point.x, point.y, point.z] for point in points]
+    return dict(zip('xyz', np.array(rows, np.float64).reshape(-1, 3).T, strict=True))
+
+
+def pose_array(msg: Any) -> Columns:
+    """Return the positions of a geometry_msgs/PoseArray; orientations say nothing of a plot."""
+    return positions([pose.position for pose in msg.poses])
+
+
+def pose_with_covariance(msg: Any) -> Columns:
+    """
+    Return one row from a geometry_msgs/PoseWithCovarianceStamped.
+
+    Position [m] for a radar; for a sonar the yaw is the direction of arrival [rad], with its
+    standard deviation where the covariance tells one.
+    """
+    pose, q = msg.pose.pose, msg.pose.pose.orientation
+    length = q.x**2 + q.y**2 + q.z**2 + q.w**2
+    yaw = np.arctan2(2.0 * (q.w * q.z + q.x * q.y), length - 2.0 * (q.y**2 + q.z**2))
+    variance = msg.pose.covariance[YAW]
+    return {
+        **positions([pose.position]),
+        'bearing': np.array([yaw if length else np.nan]),
+        'bearing_sd': np.array([np.sqrt(variance) if variance > 0.0 else np.nan]),
+    }
