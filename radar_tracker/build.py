@@ -10,6 +10,7 @@ from radar_tracker.sensor import Radar
 from tracking_core.association import ASSOCIATORS
 from tracking_core.composition import Setup
 from tracking_core.lifecycle import Lifecycle, LIFECYCLES
+from tracking_core.resolution import Resolution
 
 __all__ = ['build_planes', 'build_setup']
 
@@ -33,7 +34,14 @@ def build_setup(config: RadarTrackerConfig, radar: Radar) -> Setup:
         least_existence=_START_SHARE * config.existence.drop,
         merge=config.merge,
         max_tracks=config.max_tracks,
+        resolution=_resolution(config, radar),
     )
+
+
+def _resolution(config: RadarTrackerConfig, radar: Radar) -> Resolution | None:
+    if config.sensor.range_resolution == 0.0:
+        return None
+    return Resolution(radar, **vars(config.unresolved))
 
 
 def _lifecycle(config: RadarTrackerConfig) -> Lifecycle:

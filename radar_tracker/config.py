@@ -18,6 +18,7 @@ from tracking_core.lifecycle_config import (
     InitiationConfig,
     MergeConfig,
     MOfNConfig,
+    UnresolvedConfig,
 )
 
 
@@ -47,6 +48,15 @@ class SensorConfig:
     detection_probability: float = parameter(
         0.9, unit='1', doc='chance that a look at a contact gives a plot', low=0.01, high=0.999,
         live=True,
+    )  # fmt: skip
+    range_resolution: float = parameter(
+        0.0, unit='m', low=0.0, high=1e5,
+        doc='contacts nearer than this in range and azimuth_resolution give one plot; '
+        '0: every contact gives its own',
+    )  # fmt: skip
+    azimuth_resolution: float = parameter(
+        0.0, unit='rad', low=0.0, high=1.0,
+        doc='the same in azimuth, and in elevation (3-D radar); both or neither',
     )  # fmt: skip
     dimensions: int = parameter(
         0, unit='1', doc='2 or 3; 0: as the first plots tell (elevation or z: 3)', low=0, high=3
@@ -83,6 +93,11 @@ class SensorConfig:
         validate(self)
         if self.range_rate_sign == 0:
             raise ValueError('SensorConfig.range_rate_sign must be 1 or -1, got 0')
+        if (self.range_resolution > 0.0) != (self.azimuth_resolution > 0.0):
+            raise ValueError(
+                'SensorConfig.range_resolution and azimuth_resolution must both be 0 or both be '
+                f'above 0, got {self.range_resolution} and {self.azimuth_resolution}'
+            )
         if self.range_min >= self.range_max:
             raise ValueError(
                 f'SensorConfig.range_min must be below range_max = {self.range_max}, '
@@ -125,6 +140,7 @@ class RadarTrackerConfig:
     m_of_n: MOfNConfig = field(default_factory=MOfNConfig)
     initiation: InitiationConfig = field(default_factory=InitiationConfig)
     merge: MergeConfig = field(default_factory=MergeConfig)
+    unresolved: UnresolvedConfig = field(default_factory=UnresolvedConfig)
     estimator: str = parameter(
         'markov_jump', unit='', choices=RADAR_ESTIMATORS, doc='filter of every track'
     )
@@ -154,3 +170,8 @@ class RadarTrackerConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
+        if self.sensor.range_resolution > 0.0 and self.association != 'jpda':
+            raise ValueError(
+                'RadarTrackerConfig.association must be jpda where sensor.range_resolution is '
+                f'above 0, got {self.association}'
+            )

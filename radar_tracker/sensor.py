@@ -11,6 +11,7 @@ import numpy as np
 from radar_tracker.config import MountConfig, SensorConfig
 from radar_tracker.conversion import linearised, to_cartesian, to_polar
 from tracking_core.batches import Coverage, Floats, Plots, Scan
+from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
 
 
@@ -69,6 +70,39 @@ class Radar:
         return self._clutter_volume(
             position - np.array(coverage.sensor_position)[: self.dimensions]
         )
+
+    @property
+    def _limits(self) -> Floats:
+        """Range [m], azimuth and elevation [rad] (d,): the beam is as high as it is wide."""
+        c = self.config
+        limits = [c.range_resolution, c.azimuth_resolution, c.azimuth_resolution]
+        return np.array(limits[: self.dimensions])
+
+    def separation(self, first: Floats, second: Floats, coverage: Coverage) -> Floats:
+        """
+        Return how far contacts are apart in units of the resolution limit (P, d).
+
+        Parameters
+        ----------
+        first, second : (P, d) arrays
+            Positions [m]; a height that is not known, NaN, keeps nobody apart.
+        coverage : Coverage
+            Of the look, with the place of the sensor.
+
+        """
+        origin = np.array(coverage.sensor_position)[: self.dimensions]
+        one, other = to_polar(first - origin), to_polar(_or_like(second, first) - origin)
+        apart = other - one
+        apart[:, 1] = wrap_angle(apart[:, 1])
+        return np.asarray(apart / self._limits)
+
+    def reach(self, position: Floats, coverage: Coverage) -> Floats:
+        """Return half size (T, d) [m] of the box of all that may be one plot with a contact."""
+        polar = to_polar(position - np.array(coverage.sensor_position)[: self.dimensions])
+        sides = [linearised(polar, sd[None])[1] for sd in np.diag(self._limits)]
+        straight = np.sum([np.sqrt(np.einsum('tdd->td', side)) for side in sides], axis=0)
+        bend = (1.0 - np.cos(self.config.azimuth_resolution)) * polar[:, :1]  # a cell is an arc
+        return np.asarray(straight + bend)
 
     def measure(self, plots: Plots, pose: PlatformPose, coverage: Coverage, volume: float) -> Scan:
         """
@@ -157,3 +191,8 @@ def _platform_noise(pose: PlatformPose, offset: Floats) -> Floats:
 def _or(values: Floats, default: float) -> Floats:
     """Return the values, the default where the sensor tells none that can be true."""
     return np.where(np.isfinite(values) & (values > 0.0), values, default)
+
+
+def _or_like(values: Floats, others: Floats) -> Floats:
+    """Return the values, those of the others where there are none."""
+    return np.where(np.isnan(values), others, values)

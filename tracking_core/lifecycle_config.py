@@ -133,3 +133,35 @@ class MergeConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
+
+
+@dataclass(frozen=True)
+class UnresolvedConfig:
+    """What is known of plots that belong to more than one contact."""
+
+    softness: float = parameter(
+        0.3, unit='1', low=1e-3, high=1.0, live=True,
+        doc='sd of the limit of resolution, as a part of it',
+    )  # fmt: skip
+    spread: float = parameter(
+        1.0, unit='1', low=0.0, high=1000.0, live=True,
+        doc='variance of a common plot about the mean by level, as a part of the spread of the '
+        'contacts',
+    )  # fmt: skip
+    interference: float = parameter(
+        0.1, unit='1', low=0.0, high=1.0, live=True,
+        doc='sd of plots of contacts near the limit of resolution, as a part of it: each plot '
+        'is pulled by the other contact',
+    )  # fmt: skip
+    capture: float = parameter(
+        0.3, unit='1', low=1e-6, high=0.999, live=True,
+        doc='chance that the common plot is that of one contact, which drowns the others',
+    )  # fmt: skip
+    least_chance: float = parameter(
+        0.01, unit='1', low=1e-6, high=0.5, live=True,
+        doc='contacts that are less likely to have one plot are taken as apart',
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
