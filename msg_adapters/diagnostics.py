@@ -20,6 +20,8 @@ class InputCount:
 
     messages: int = 0
     rows: int = 0
+    late_used: int = 0  # messages that came after newer ones
+    late_dropped: int = 0  # ... and too late to be used
     lost: int = 0  # gaps in the publisher's own numbers
     refused: Counter[str] = field(default_factory=Counter)  # messages by reason
     dropped: Counter[str] = field(default_factory=Counter)  # rows by reason
@@ -55,6 +57,8 @@ class InputCount:
             f'{topic} messages': self.messages,
             f'{topic} rows': self.rows,
             f'{topic} lost': self.lost,
+            f'{topic} late, used': self.late_used,
+            f'{topic} late, dropped': self.late_dropped,
             f'{topic} messages refused': self.refused.total(),
             f'{topic} rows dropped': self.dropped.total(),
             **counts,

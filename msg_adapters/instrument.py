@@ -21,11 +21,24 @@ class Tracker(Protocol):
 
     @property
     def state(self) -> State:
-        """Return all that is remembered."""
+        """Return all that is remembered of tracks; may be set."""
+
+    @state.setter
+    def state(self, state: State) -> None: ...
 
     @property
     def tracks(self) -> Tracks:
         """Return all tracks."""
+
+    @property
+    def turn(self) -> float:
+        """Return the time of one turn of the antenna [s], 0 if it is not known to turn."""
+
+    def save(self) -> Any:
+        """Return what `restore` takes to go back to this moment."""
+
+    def restore(self, memory: Any) -> None:
+        """Go back to a moment; the parameters stay."""
 
     def reset(self) -> None:
         """Forget all but the next id."""

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from msg_adapters.kinds.menu import check_type, POINT_CLOUD, TYPES
@@ -24,6 +24,20 @@ def drawing_rate() -> Any:
 
 
 @dataclass(frozen=True)
+class LateConfig:
+    """What becomes of messages that come in the wrong order."""
+
+    late: int = parameter(
+        3, unit='scans', low=0, high=20,
+        doc='messages up to so many scans late are used at their own time; 0: none is',
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
 class NodeConfig:
     """What a node needs beside the tracker's own parameters."""
 
@@ -31,6 +45,7 @@ class NodeConfig:
     """Config with the `rate` of drawings and what else the sensor's drawings need."""
     fields: Any
     """Config with the message's name for each of our fields."""
+    scan: LateConfig = field(default_factory=LateConfig)
     tracking_frame: str = parameter(
         '', unit='', doc='frame of the tracks; empty: that of own ship or, without, of the plots'
     )

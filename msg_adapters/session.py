@@ -17,7 +17,9 @@ import numpy as np
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.diagnostics import InputCount
 from msg_adapters.frames import TrackingFrame
+from msg_adapters.history import History
 from msg_adapters.instrument import Instrument
+from msg_adapters.late import Follower
 from msg_adapters.ledger import Ledger, Log
 from msg_adapters.message_types import MessageTypes, seconds
 from msg_adapters.node_config import NodeConfig
@@ -52,12 +54,15 @@ class Session:
         self.ledger = Ledger(f'{instrument.topic} ownship acquire', log.warning)
         self.guard = StampGuard(node_config.time_jump_threshold)
         self._ownship_guard = StampGuard(node_config.time_jump_threshold)
+        history = History(node_config.scan.late, node_config.time_jump_threshold)
+        self._follower = Follower(instrument, history)
         self._node_config, self._types, self._log = node_config, types, log
         self._published = instrument.tracker.tracks
         self._forget()
 
     def _forget(self) -> None:
         """Be as after a start, but for the tracks that must be reported as deleted."""
+        self._follower.history.reset()
         self.guard.reset()
         self._ownship_guard.reset()
         self.platform = Platform.empty(self._node_config.ownship_timeout)
@@ -89,7 +94,9 @@ class Session:
 
     def plots(self, msg: Any, received: float) -> Any | None:
         """
-        Return the track table after this message, None if the message was refused.
+        Return the track table after this message, None if it was refused or came late.
+
+        Late plots are used at their own time; the next table shows what they have changed.
 
         Parameters
         ----------
@@ -113,18 +120,32 @@ class Session:
         platform = self.platform if self.instrument.uses_platform(self.frame) else None
         if platform is not None:  # before the guard takes the stamp
             platform.at(np.append(reading.plots.time, reading.plots.stamp))
-        if self.guard.accept(reading.plots.stamp, received):
-            self._log.warning(
-                f'time moved to {reading.plots.stamp:.3f} (a recording that began anew?): '
-                'tracking starts anew'
-            )
+        plots, history = reading.plots, self._follower.history
+        if history.takes(plots.stamp) and not self.guard.is_going_back:
+            self._follower.insert(plots, platform, self.frame)
+            self._use(reading)
+            self.counts[self.instrument.topic].late_used += 1
+            return None
+        if self._accept(plots.stamp, received):
+            moved = f'time moved to {plots.stamp:.3f} (a recording that began anew?)'
+            self._log.warning(f'{moved}: tracking starts anew')
+            history.reset()
             self.instrument.tracker.reset()
-        tracks = self.instrument.track(reading.plots, platform, self.frame)
+        tracks = self._follower.step(plots, platform, self.frame)
         self._use(reading)
         self.stamp = msg.header.stamp
         table = self.instrument.to_table(self._published, self.header())
         self._published = tracks
         return table
+
+    def _accept(self, stamp: float, received: float) -> bool:
+        """Return whether tracking must start anew; raises BadMessage, and counts what is late."""
+        try:
+            return self.guard.accept(stamp, received)
+        except BadMessage:
+            is_late = self._follower.history.has_lost(stamp)
+            self.counts[self.instrument.topic].late_dropped += is_late
+            raise
 
     def _use(self, reading: Reading[Any]) -> None:
         """Count the rows of a message that is accepted, and say once which fields are used."""
@@ -143,6 +164,7 @@ class Session:
             sample = to_platform(msg)
             if self.frame.check_ownship(msg.header.frame_id.lstrip('/')):
                 self._log.warning('own ship appeared: tracking starts anew in its frame')
+                self._follower.history.reset()
                 self.instrument.tracker.reset()
             if self._ownship_guard.accept(float(sample.time[0]), received):
                 self.platform = Platform.empty(self._node_config.ownship_timeout)
@@ -162,6 +184,7 @@ class Session:
                     'bad point', f'point is {position}, farther than {self.instrument.reach:g} m'
                 )
             track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
+            self._follower.history.close()
             self._log.info(f'track {track_id} started at {position} m')
         except BadMessage as error:
             self.ledger.refuse('acquire', error.reason, error)
@@ -169,6 +192,7 @@ class Session:
     def cancel(self, track_id: int) -> None:
         """Drop one track."""
         if self.instrument.tracker.drop_track(track_id):
+            self._follower.history.close()
             self._log.info(f'track {track_id} dropped')
         else:
             self.ledger.warn('cancel', f'cancel: there is no track {track_id}')

@@ -40,6 +40,11 @@ class StampGuard:
     _moved: bool = False
 
     @property
+    def is_going_back(self) -> bool:
+        """Whether the ROS clock went back, and no stamp has followed it yet."""
+        return self._moved
+
+    @property
     def _reach(self) -> float:
         """How far the next stamp may be from the last one."""
         return self.threshold + PATIENCE * self._interval

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -51,6 +53,27 @@ class RadarTracker:
     def state(self) -> State:
         """All that the tracker remembers, with the report of the last step."""
         return self._tracker.state
+
+    @state.setter
+    def state(self, state: State) -> None:
+        self._tracker.state = state
+
+    @property
+    def turn(self) -> float:
+        """Time of one turn of the antenna [s], 0 if it is not known to turn."""
+        rate = abs(self._antenna.rotation_rate)
+        return TWO_PI / rate if rate else 0.0
+
+    def save(self) -> dict[str, Any]:
+        """Return what `restore` takes to go back to this moment: references, no copies of data."""
+        return {name: copy(value) for name, value in vars(self).items()}
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Go back to a moment that was saved; the parameters stay as they are."""
+        config = self.config
+        vars(self).update({name: copy(value) for name, value in memory.items()})
+        if self.config != config:
+            self.reconfigure(config)
 
     @property
     def tracks(self) -> Tracks:

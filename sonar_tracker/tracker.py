@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -49,11 +51,36 @@ class SonarTracker:
         self._tracker.reset(next_id)
         self._coverage = Coverage(0.0, 0.0)
         self._ranging = Ranging(self.config.ranging)
+        self._heard = -np.inf  # end of the newest cycle that told of ranges [s]
 
     @property
     def state(self) -> State:
         """All that the tracker remembers, with the report of the last step."""
         return self._tracker.state
+
+    @state.setter
+    def state(self, state: State) -> None:
+        self._tracker.state = state
+
+    @property
+    def turn(self) -> float:
+        """0: every message is a scan."""
+        return 0.0
+
+    def save(self) -> tuple[Any, ...]:
+        """Return what `restore` takes to go back to this moment: references, no copies of data."""
+        return self.config, self._sonar, copy(self._tracker), self._coverage
+
+    def restore(self, memory: tuple[Any, ...]) -> None:
+        """
+        Go back to a moment that was saved; the parameters stay as they are.
+
+        What was learnt of ranges stays too: marks that come late do not count for it.
+        """
+        config, self._sonar, tracker, self._coverage = memory
+        self._tracker = copy(tracker)
+        if self.config != config:
+            self.reconfigure(self.config)
 
     @property
     def tracks(self) -> Tracks:
@@ -125,7 +152,8 @@ class SonarTracker:
         self._expect(bearings)
         at_marks = take(pose, slice(0, -1))
         tracks = self._tracker.step(self._sonar.measure(bearings, at_marks, self._coverage))
-        if self.config.ranging.enabled:
+        if self.config.ranging.enabled and end > self._heard:
+            self._heard = end
             self._ranging.add(tracks, self._coverage)
         return tracks
 

@@ -1,0 +1,166 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Plots that come late are used at their own time: the tracks are those of the right order."""
+
+import logging
+
+import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
+import pytest
+
+from msg_adapters.message_types import rosbags_types, seconds
+from msg_adapters.node_config import LateConfig
+from msg_adapters.table import from_columns, to_columns
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.node_config import radar_node_config
+from radar_tracker.session import radar_session
+from sonar_tracker.config import SonarTrackerConfig
+from sonar_tracker.node_config import sonar_node_config
+from sonar_tracker.session import sonar_session
+from tracking_core.config import with_values
+from tracking_tools.scenarios import build
+from tracking_tools.scenarios.messages import send
+
+TYPES = rosbags_types()
+PERIOD = 4.0
+ROWS = ('x', 'y', 'z', 'vx', 'vy', 'vz', 'covariance', 'existence_probability', 'status', 'time')
+
+
+def radar(late=3, **values):
+    """Return a session that takes messages so many scans late."""
+    config = with_values(RadarTrackerConfig(), values)
+    node = with_values(radar_node_config(), {'scan.late': late})
+    return radar_session(config, node, TYPES, logging.getLogger('late'))
+
+
+def scans(sectors, turns=40):
+    """Return the plots of aircraft in a terminal area, clutter and all."""
+    sent = send(build('terminal'), TYPES, sectors)
+    return [next(sent)[0].msg for _ in range(turns * sectors)]
+
+
+def shuffled(messages, seed, most=3, start=0):
+    """Return the messages, each with up to `most` newer ones before it; the last stays last."""
+    rng, count = np.random.default_rng(seed), len(messages)
+    delay = rng.integers(0, most + 1, count) * (np.arange(count) >= start)
+    delay[-1] = most + 1
+    return [messages[k] for k in np.argsort(np.arange(count) + delay, kind='stable')]
+
+
+def run(session, messages):
+    """Feed messages; return the tables that come back."""
+    tables = [session.plots(msg, 0.0) for msg in messages]
+    return [to_columns(table, 10_000) for table in tables if table is not None]
+
+
+def same_rows(one, other, ids=False):
+    """Check that two tables have the same living tracks, in whatever order."""
+    one, other = ({n: c[t['status'] < 2] for n, c in t.items()} for t in (one, other))
+    order = [np.lexsort((t['y'], t['x'])) for t in (one, other)]
+    for name in (*ROWS, 'id') if ids else ROWS:
+        assert_allclose(one[name][order[0]], other[name][order[1]], rtol=1e-5, atol=1e-6)
+
+
+@pytest.mark.parametrize('seed', range(4))
+@pytest.mark.parametrize('sectors', [1, 8])
+def test_shuffled_delivery_gives_the_tracks_of_ordered_delivery(seed, sectors) -> None:
+    """Up to 3 scans late from the first on, whole turns or sectors: the same rows at the end."""
+    messages, values = scans(sectors), {'scan.assembly': 'sector' if sectors > 1 else 'message'}
+    session = radar(**values)
+    order = shuffled(messages, seed)
+    stamps = np.array([seconds(msg.header.stamp) for msg in order])
+    mixed, ordered = run(session, order), run(radar(**values), messages)
+    count = session.counts['plots']
+    assert count.late_used == np.sum(stamps < np.maximum.accumulate(stamps)) > 0
+    assert count.late_used + len(mixed) == len(messages)
+    assert len(mixed[-1]['id']) >= 5
+    same_rows(mixed[-1], ordered[-1])
+
+
+def test_ids_that_were_published_stay() -> None:
+    """Tracks begin before, while and after messages are late; ids are never given twice."""
+    messages = scans(1)
+    session, born = radar(), {}
+    for table in run(session, shuffled(messages, 2, start=5)):
+        for number, x, y in zip(table['id'], table['x'], table['y'], strict=True):
+            if number in born:  # within what an aircraft flies in four turns, and its error
+                assert np.hypot(x - born[number][0], y - born[number][1]) < 6_000.0
+            born[number] = x, y
+    ordered = run(radar(), messages)[-1]
+    same_rows({n: c[table['hits'] > 25] for n, c in table.items()},
+              {n: c[ordered['hits'] > 25] for n, c in ordered.items()}, ids=True)  # fmt: skip
+    assert session.instrument.tracker.state.next_id > max(born)
+
+
+def test_stamps_of_the_tables_rise() -> None:
+    """A late message is not answered; the next table shows what it changed."""
+    messages = scans(1, 12)
+    session = radar()
+    run(session, messages[:9])
+    assert session.plots(messages[10], 0.0) is not None
+    assert session.plots(messages[9], 0.0) is None
+    assert session.stamp == messages[10].header.stamp
+    changed = to_columns(session.plots(messages[11], 0.0), 10_000)
+    same_rows(changed, run(radar(), messages)[-1], ids=True)
+
+
+def test_older_ones_and_copies_are_dropped_and_counted() -> None:
+    """Four scans late is too late, copies are refused as ever, with 0 all that is late too."""
+    messages = scans(1, 12)
+    session, strict = radar(), radar(late=0)
+    for one in (session, strict):
+        run(one, [*messages[:5], *messages[6:10], messages[5], messages[9], messages[7]])
+    assert (session.counts['plots'].late_used, session.counts['plots'].late_dropped) == (0, 1)
+    assert sum(session.counts['plots'].refused.values()) == 3
+    run(session, [messages[11], messages[10]])
+    run(strict, [messages[11], messages[10]])
+    assert session.counts['plots'].late_used == 1
+    assert (strict.counts['plots'].late_used, strict.counts['plots'].late_dropped) == (0, 3)
+
+
+def test_recording_that_begins_anew_still_starts_anew() -> None:
+    """A jump back beyond the last scans is a jump of the clock, not a crowd of late messages."""
+    messages, session = scans(1, 30), radar()
+    run(session, [*messages, *messages])
+    assert session.guard.jumps == 1
+    assert session.counts['plots'].late_used == 0
+
+
+def test_commands_of_a_user_are_not_undone() -> None:
+    """A track that was dropped does not come back with plots from before."""
+    messages, session = scans(1, 20), radar()
+    tables = run(session, [*messages[:16], messages[17]])
+    number = int(tables[-1]['id'][tables[-1]['status'] == 1][0])
+    session.cancel(number)
+    run(session, [messages[16], messages[18]])
+    assert session.counts['plots'].late_dropped == 1
+    assert number not in session.tracks.id
+
+
+def test_late_parameter_has_limits() -> None:
+    """The message names it."""
+    with pytest.raises(ValueError, match=r'LateConfig.late must be in \[0, 20\]'):
+        LateConfig(late=21)
+
+
+def test_sonar_too_uses_late_bearings() -> None:
+    """Two contacts, marks shuffled: the same bearings in the end."""
+    rng = np.random.default_rng(1)
+
+    def cycle(k):
+        bearing = np.array([0.5, 2.0]) + 1e-3 * k + rng.normal(0.0, 2e-3, 2)
+        columns = {'bearing': bearing, 'bearing_sd': np.full(2, 2e-3)}
+        return from_columns(columns, 1_000.0 + 2.0 * k, 'sonar', TYPES)
+
+    def session():
+        log = logging.getLogger('late')
+        return sonar_session(SonarTrackerConfig(), sonar_node_config(), TYPES, log)
+
+    messages, mixed = [cycle(k) for k in range(40)], session()
+    one, other = run(mixed, shuffled(messages, 3))[-1], run(session(), messages)[-1]
+    assert mixed.counts['bearings'].late_used > 5
+    assert (other['status'] == 1).sum() == 2
+    order = [np.argsort(t['bearing']) for t in (one, other)]
+    for name in ('bearing', 'bearing_rate', 'status'):
+        assert_allclose(one[name][order[0]], other[name][order[1]], rtol=1e-5)
+    assert_array_equal(np.sort(one['id']), np.unique(one['id']))

@@ -1,0 +1,49 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Tracks that were followed once more keep the ids that they had."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
+
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.tracker import RadarTracker
+from tracking_core.identity import keep_ids
+from tracking_core.rows import take
+
+
+def state_of(*x):
+    """Return the state of a tracker with tracks at these places [m], ids from 1 on."""
+    tracker = RadarTracker(RadarTrackerConfig())
+    for place in x:
+        tracker.start_track(np.array([place, 0.0]), 0.0)
+    return tracker.state
+
+
+def test_tracks_at_the_same_place_keep_their_ids():
+    """Two in the other order, one that is new and gets an id nobody had."""
+    before, after = state_of(0.0, 5e3, 9e3), state_of(0.0, 9e3, 7e4, 5e3)
+    kept = keep_ids(before, after, first=2)
+    where = kept.tracks.planes[0].moments()[0][:, 0]
+    assert_array_equal(kept.tracks.id, [1, 2, 3, 4])
+    assert_allclose(where, [0.0, 5e3, 9e3, 7e4])
+    assert kept.next_id == 5
+
+
+def test_ids_are_never_given_twice():
+    """What was told of a track that has no second is not told of another."""
+    before, after = state_of(0.0, 5e3), state_of(0.0, 6e4)
+    before = replace(before, next_id=9)
+    kept = keep_ids(before, after, first=2)
+    assert_array_equal(kept.tracks.id, [1, 9])
+    assert kept.next_id == 10
+
+
+def test_nothing_to_compare_is_no_fault():
+    """No tracks before, none after, or none that began late."""
+    before, after = state_of(), state_of(0.0, 5e3)
+    assert_array_equal(keep_ids(before, after, first=1).tracks.id, [1, 2])
+    nobody = replace(after, tracks=take(after.tracks, np.zeros(0, np.int64)))
+    assert keep_ids(after, nobody, first=1).next_id == after.next_id
+    assert_array_equal(keep_ids(after, after, first=3).tracks.id, [1, 2])
