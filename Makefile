@@ -14,7 +14,7 @@ ARGS ?=
 unexport AMENT_PREFIX_PATH LD_LIBRARY_PATH PYTHONPATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo demo-sonar test coverage lint clean
+.PHONY: help setup demo demo-sonar test soak coverage lint clean
 
 help: ## say what can be made
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -29,6 +29,9 @@ demo-sonar: $(READY) ## the same for the sonar node: bearings through a crossing
 
 test: $(READY) ## run the whole test suite
 	$(BIN)/python -m pytest $(ARGS)
+
+soak: $(READY) ## run the long versions of the reliability tests; takes hours
+	$(BIN)/python -m pytest -m soak -s $(ARGS)
 
 coverage: $(READY) ## run the core's tests and show which of its lines and branches they miss
 	$(BIN)/python -m pytest test/tracking_core --cov --cov-report=term-missing $(ARGS)

@@ -21,6 +21,15 @@ os.environ['MPLBACKEND'] = 'Agg'
 DOMAIN_IDS = range(1, 101)
 
 
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out the long runs, unless the expression of -m names them."""
+    if 'soak' in config.option.markexpr:
+        return
+    long = [item for item in items if item.get_closest_marker('soak')]
+    config.hook.pytest_deselected(items=long)
+    items[:] = [item for item in items if item not in long]
+
+
 @pytest.fixture
 def ros_domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     """Give this test a ROS domain that no other test on this machine has at the moment."""
