@@ -47,6 +47,14 @@ setup(
             'ros-jazzy-rmw-fastrtps-cpp',  # rclpy does not import without it
         ],
         'tools': ['rosbags>=0.11', 'matplotlib>=3.6', 'tqdm>=4.66', 'pyyaml>=6.0'],
+        # What our tracks and times are compared with; nothing of ours needs them to run.
+        'peers': [
+            'stonesoup>=1.9',
+            'pyehm>=2.2',  # EHM2 for the JPDA of Stone Soup
+            'filterpy>=1.4.5',
+            'nrl-tracker>=2.11; python_version >= "3.11"',
+        ],
+        'dask': ['dask[distributed]>=2024.1'],  # sweeps over more than one machine
         # colcon runs the tests only when an extra of this name lists pytest.
         'test': [
             'pytest>=7.4',
