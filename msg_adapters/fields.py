@@ -20,9 +20,12 @@ SYNONYMS = {
         'radar_relative_radial_velocity', 'v_r', 'vr', 'v',
     ),
     'snr': ('signal_to_noise_ratio',),
+    'amplitude': ('power', 'intensity', 'rcs'),
     'time': ('t', 'time_offset', 'stamp_offset'),
 }  # fmt: skip
-WITH_NOISE = ('range', 'azimuth', 'elevation', 'range_rate')
+WITH_NOISE = ('range', 'azimuth', 'elevation', 'range_rate', 'x', 'y', 'z')
+# Of a Cartesian plot; `x_sd` and its like say less and give way.
+COVARIANCE = tuple(f'covariance_{axes}' for axes in ('xx', 'xy', 'xz', 'yy', 'yz', 'zz'))
 # Nobody knows whether this one is radial, or of which sign; fields.range_rate may name it.
 AMBIGUOUS = 'velocity'
 
@@ -37,6 +40,7 @@ Names = Mapping[str, tuple[str, ...]]
 PLOTS: Names = {
     **{ours: (ours, *others) for ours, others in SYNONYMS.items()},
     **{f'{ours}_sd': _noise_names((ours, *SYNONYMS[ours])) for ours in WITH_NOISE},
+    **{ours: (ours,) for ours in COVARIANCE},
 }
 _BEARING = ('bearing', *PLOTS['azimuth'])
 BEARINGS: Names = {

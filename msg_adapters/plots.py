@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import AMBIGUOUS, describe, PLOTS
 from msg_adapters.message_types import MessageTypes
+from msg_adapters.position_noise import position_covariance
 from msg_adapters.reading import Fields, read_fields, Reading, refuse_if_useless
 from msg_adapters.row_checks import choose_rows, plot_checks, usable_values
 from msg_adapters.table import from_columns
@@ -87,7 +88,9 @@ def to_plots(
             f'{describe(message.columns)}',
         )
     told, doubtful = usable_values(read)
-    plots = _assemble({**read, **told}, polar, message, sensor)
+    covariance, odd = position_covariance(read, len(message))
+    doubtful |= {'covariance that is none': odd} if odd else {}
+    plots = _assemble({**read, **told}, covariance, polar, message, sensor)
     checks = plot_checks(plots, polar, sensor.range_min, sensor.range_max)
     keep, dropped = choose_rows(plots, checks)
     refuse_if_useless(keep, dropped)
@@ -101,7 +104,11 @@ def to_plots(
 
 
 def _assemble(
-    read: Mapping[str, Floats], polar: bool, message: Fields, sensor: Convention
+    read: Mapping[str, Floats],
+    covariance: Floats,
+    polar: bool,
+    message: Fields,
+    sensor: Convention,
 ) -> Plots:
     """Return the plots of all rows, in our conventions, good and bad."""
     nothing = np.full(len(message), np.nan)
@@ -112,10 +119,11 @@ def _assemble(
         time=message.time,
         range=read['range'] if polar else nothing,
         azimuth=np.pi / 2.0 - azimuth if compass else azimuth,
-        elevation=read.get('elevation', nothing) if polar else nothing,
+        elevation=_elevation(read, position) if polar else nothing,
         position=position,
+        position_covariance=covariance,
         range_rate=read.get('range_rate', nothing) * sensor.range_rate_sign,
-        snr=read.get('snr', nothing),
+        snr=read.get('snr', read.get('amplitude', nothing)),
         range_sd=read.get('range_sd', nothing),
         azimuth_sd=read.get('azimuth_sd', nothing),
         elevation_sd=read.get('elevation_sd', nothing),
@@ -123,6 +131,15 @@ def _assemble(
         stamp=message.stamp,
         frame=message.frame,
     )
+
+
+def _elevation(read: Mapping[str, Floats], position: Floats) -> Floats:
+    """Return the elevation (M,), from x, y, z (M, 3) if there is none; all z are 0: no height."""
+    x, y, z = position.T
+    if 'elevation' in read or not np.nan_to_num(z).any():
+        return read.get('elevation', np.full(len(z), np.nan))
+    with np.errstate(over='ignore'):
+        return np.asarray(np.arctan2(z, np.hypot(x, y)))
 
 
 def _contradictions(plots: Plots) -> int:

@@ -20,6 +20,7 @@ LIMITS = {
     'bearing_sd': (1e-6, 0.5),  # rad
     'range_rate': (-1e4, 1e4),  # m/s
     'snr': (-1e3, 1e3),  # dB
+    'amplitude': (-1e3, 1e3),  # dB
 }
 WIDEST = 2.51 * np.pi  # a quarter turn more than one: compass angles have been turned already
 OUT_OF_RANGE = ('range below', 'range beyond')  # reasons that no fault is behind

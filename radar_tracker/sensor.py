@@ -147,7 +147,8 @@ class Radar:
         """Return position (M, 3) and covariance (M, 3, 3) in sensor axes."""
         c, M, d = self.config, len(plots), self.dimensions
         if not self.is_polar:
-            return np.nan_to_num(plots.position), np.tile(c.position_sd**2 * np.eye(3), (M, 1, 1))
+            told, usual = plots.position_covariance, c.position_sd**2 * np.eye(3)
+            return np.nan_to_num(plots.position), np.where(np.isnan(told), usual, told)
         polar = np.stack([plots.range, plots.azimuth, np.nan_to_num(plots.elevation)], axis=1)
         sd = np.stack(
             [

@@ -35,6 +35,7 @@ class Plots:
     azimuth: Floats  # (M,) [rad]
     elevation: Floats  # (M,) [rad], NaN: not measured
     position: Floats  # (M, 3) Cartesian plots [m]; NaN for polar ones, z NaN: not measured
+    position_covariance: Floats  # (M, 3, 3) of Cartesian plots [m^2], NaN: not told
     range_rate: Floats  # (M,) positive receding [m/s]
     snr: Floats  # (M,) [dB]
     range_sd: Floats  # (M,) [m]
@@ -64,6 +65,7 @@ class Plots:
             if f.name not in ('stamp', 'frame')
         }
         absent['position'] = np.full((rows, 3), np.nan)
+        absent['position_covariance'] = np.full((rows, 3, 3), np.nan)
         return Plots(**{**absent, **columns})  # type: ignore[arg-type]
 
     def __len__(self) -> int:

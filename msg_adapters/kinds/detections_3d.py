@@ -6,17 +6,31 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from msg_adapters.kinds.poses import positions
+from msg_adapters.position_noise import covariance_columns
 from msg_adapters.table import Columns
+
+NOT_TOLD = np.zeros(36)
 
 
 def detections_3d(msg: Any) -> Columns:
-    """Return x, y and z [m] of the best hypothesis of each detection, of its box without one."""
-    return positions([_position(one) for one in msg.detections])
+    """
+    Return x, y, z [m] and their covariance from the best hypothesis of each detection.
+
+    Without a hypothesis the box says where it is, and nothing how sure that is.
+    """
+    poses = [_best(one) for one in msg.detections]
+    return {
+        **positions([pose.position for pose, _ in poses]),
+        **covariance_columns([covariance for _, covariance in poses]),
+    }
 
 
-def _position(detection: Any) -> Any:
+def _best(detection: Any) -> tuple[Any, Any]:
+    """Return pose and covariance (36,)."""
     if len(detection.results) == 0:
-        return detection.bbox.center.position
+        return detection.bbox.center, NOT_TOLD
     best = max(detection.results, key=lambda result: result.hypothesis.score)
-    return best.pose.pose.position
+    return best.pose.pose, best.pose.covariance

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from msg_adapters.position_noise import covariance_columns
 from msg_adapters.table import Columns
 
 YAW = 35  # place of the yaw variance in a row-major 6 x 6 covariance
@@ -28,8 +29,8 @@ def pose_with_covariance(msg: Any) -> Columns:
     """
     Return one row from a geometry_msgs/PoseWithCovarianceStamped.
 
-    Position [m] for a radar; for a sonar the yaw is the direction of arrival [rad], with its
-    standard deviation where the covariance tells one.
+    For a radar the position [m] with its covariance; for a sonar the yaw is the direction of
+    arrival [rad], with its standard deviation where the covariance tells one.
     """
     pose, q = msg.pose.pose, msg.pose.pose.orientation
     length = q.x**2 + q.y**2 + q.z**2 + q.w**2
@@ -37,6 +38,7 @@ def pose_with_covariance(msg: Any) -> Columns:
     variance = msg.pose.covariance[YAW]
     return {
         **positions([pose.position]),
+        **covariance_columns([msg.pose.covariance]),
         'bearing': np.array([yaw if length else np.nan]),
         'bearing_sd': np.array([np.sqrt(variance) if variance > 0.0 else np.nan]),
     }
