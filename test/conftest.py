@@ -3,22 +3,20 @@
 """What every test starts from: a strict, private ROS and no display."""
 
 from collections.abc import Iterator
-import fcntl
 import os
 from pathlib import Path
 import runpy
-import tempfile
 from typing import Any
 
 import pytest
 import setuptools
 
+from tracking_tools.node_process import private_domain
+
 # Before the first message class is imported: without it a wrong type is sent as garbage.
 os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 os.environ['MPLBACKEND'] = 'Agg'
-
-DOMAIN_IDS = range(1, 101)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -33,18 +31,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 @pytest.fixture
 def ros_domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     """Give this test a ROS domain that no other test on this machine has at the moment."""
-    folder = Path(tempfile.gettempdir(), f'contact_tracking_domains_{os.getuid()}')
-    folder.mkdir(exist_ok=True)
-    for domain_id in DOMAIN_IDS:
-        with (folder / str(domain_id)).open('w') as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                continue
-            monkeypatch.setenv('ROS_DOMAIN_ID', str(domain_id))
-            yield domain_id
-            return
-    pytest.fail(f'all ROS domains of {DOMAIN_IDS} are taken')
+    with private_domain() as domain_id:
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain_id))
+        yield domain_id
 
 
 @pytest.fixture(scope='session')

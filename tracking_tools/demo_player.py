@@ -9,12 +9,13 @@ from importlib import import_module
 from pathlib import Path
 import sys
 import time
+from typing import Any
 
 from rosbags.highlevel import AnyReader
 from tqdm import tqdm
 
 from tracking_tools.bags import BagWriter, NANOSECONDS, open_bag
-from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain
+from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.replay import POINT_CLOUD, RADAR
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.sensors import Sensor
@@ -57,9 +58,9 @@ def play(
     with open_bag(recording) as bag, private_domain() as domain_id:
         check_topics(bag, topics, recording)
         with_own_ship = topics.ownship in bag.topics
-        arguments = ['--params-file', str(parameters)]
+        command = python_node(f'{sensor.node}.node', '--params-file', str(parameters))
         print(f'{sensor.node}: starting in ROS domain {domain_id}, log in {log}', flush=True)
-        node = NodeProcess(f'{sensor.node}.node', arguments, domain_id, log)
+        node = NodeProcess(command, domain_id, log)
         own_ship = topics.ownship if with_own_ship else ''
         with (
             node,
@@ -74,12 +75,16 @@ def play(
                 if topic == own_ship:
                     player.tell_own_ship(raw)
                     continue
-                answer = player.ask(raw)
-                if answer is None:
-                    raise NodeFailed(f'the node did not answer; see {log}')
-                out.write_raw(topics.tracks, POINT_CLOUD, answer, received)
+                out.write_raw(topics.tracks, POINT_CLOUD, _answer(player, raw, log), received)
     if node.exit_code:
         raise NodeFailed(f'the node ended with code {node.exit_code}; see {log}')
+
+
+def _answer(player: Any, raw: bytes, log: Path) -> bytes:
+    try:
+        return bytes(player.ask(raw))
+    except TimeoutError as error:
+        raise NodeFailed(f'the node did not answer: {error}; see {log}') from error
 
 
 def _paced(

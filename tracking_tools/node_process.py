@@ -13,10 +13,13 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from typing import IO
 
 DOMAIN_IDS = range(1, 101)
 PATIENCE = 10.0  # for a node to end after SIGINT [s]
+DEADLINE = 20.0  # for a node to say something [s]; discovery takes 2.4 s on a loaded machine
+LOOK = 0.02  # between two looks into the log [s]
 
 
 class NodeFailed(RuntimeError):  # noqa: N818 (it is the node that failed)
@@ -44,46 +47,52 @@ def _is_locked(lock: IO[str]) -> bool:
     return True
 
 
+def python_node(module: str, *ros_arguments: str) -> list[str]:
+    """Return the command of a node in a Python module, with the arguments after --ros-args."""
+    return [sys.executable, '-m', module, '--ros-args', *ros_arguments]
+
+
 class NodeProcess:
     """
     A node that runs as long as the context does.
 
     Parameters
     ----------
-    module : str
-        As for ``python -m``.
-    arguments : sequence of str
-        Those after ``--ros-args``.
+    command : sequence of str
+        Program and arguments; see `python_node`.
     domain_id : int
         ROS domain; the node keeps to this machine.
     log : Path or str
         File for what it says.
     patience : float
         For it to end after it was asked to [s].
+    folder : Path or str, optional
+        Where it runs.
 
     """
 
     def __init__(
         self,
-        module: str,
-        arguments: Sequence[str],
+        command: Sequence[str],
         domain_id: int,
         log: Path | str,
         patience: float = PATIENCE,
+        folder: Path | str | None = None,
     ) -> None:
-        self._command = [sys.executable, '-m', module, '--ros-args', *arguments]
+        self._command, self._folder = list(command), folder
         self._environment = {
             **os.environ,
             'ROS_DOMAIN_ID': str(domain_id),
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
         }
-        self.log, self._patience = Path(log), patience
+        self.log_file, self._patience = Path(log), patience
         self.exit_code: int | None = None
 
     def __enter__(self) -> NodeProcess:
-        with self.log.open('wb') as out:
+        with self.log_file.open('wb') as out:
             self.process = subprocess.Popen(
                 self._command,
+                cwd=self._folder,
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=subprocess.STDOUT,
@@ -95,14 +104,49 @@ class NodeProcess:
     def __exit__(self, *error: object) -> None:
         self.exit_code = self.stop()
 
+    @property
+    def log(self) -> str:
+        """Everything said so far."""
+        return self.log_file.read_text(errors='replace')
+
+    def wait_for_line(self, text: str, deadline: float = DEADLINE) -> str:
+        """
+        Return the first line of the log with this text, waiting for it.
+
+        Raises
+        ------
+        NodeFailed
+            If the node ends without it, or has not said it within `deadline` [s].
+
+        """
+        end = time.monotonic() + deadline
+        while True:
+            has_ended, is_late = self.process.poll() is not None, time.monotonic() > end
+            for line in self.log.splitlines(keepends=True):
+                if text in line and line.endswith('\n'):
+                    return line
+            if has_ended or is_late:
+                raise NodeFailed(f'the node never said {text!r}, see {self.log_file}:\n{self.log}')
+            with suppress(subprocess.TimeoutExpired):
+                self.process.wait(LOOK)
+
     def check(self) -> None:
         """Raise NodeFailed if the node has ended."""
         code = self.process.poll()
         if code is not None:
-            said = self.log.read_text(errors='replace').strip().splitlines()[-3:]
+            said = self.log.strip().splitlines()[-3:]
             raise NodeFailed(
-                f'the node ended with code {code}; last lines of {self.log}:\n' + '\n'.join(said)
+                f'the node ended with code {code}; last lines of {self.log_file}:\n'
+                + '\n'.join(said)
             )
+
+    def signal(self, number: int) -> None:
+        """Send a signal."""
+        self.process.send_signal(number)
+
+    def wait(self, deadline: float = DEADLINE) -> int:
+        """Return the exit code of a node that ends by itself within `deadline` [s]."""
+        return self.process.wait(deadline)
 
     def stop(self) -> int:
         """Ask the node to end, insist if it does not, and return its exit code."""

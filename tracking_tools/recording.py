@@ -15,21 +15,13 @@ import struct
 import time
 
 from nav_msgs.msg import Odometry
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
-from rclpy.qos import QoSProfile
-from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import try_shutdown
 from sensor_msgs.msg import PointCloud2
 
 from tracking_tools.node_process import NodeFailed
+from tracking_tools.peer import Peer
 
 DISCOVERY = 15.0  # for the node and us to find each other [s]
 ANSWER = 10.0  # ... and for the node to answer one message
-AGAIN = 1.0  # without an answer for so long, a message is sent once more
-TICK = 0.05  # between two looks at whether the node still runs [s]
 
 Stamp = tuple[int, int]
 
@@ -46,60 +38,38 @@ class Player:
     Plays plots to a tracker.
 
     Publishers: plots (sensor_msgs/PointCloud2, reliable, keep last 50) and, where it has a name,
-    own ship (nav_msgs/Odometry, the same). Subscriber: tracks, as plots.
+    own ship (nav_msgs/Odometry, the same). Subscriber: tracks.
 
     Parameters
     ----------
+    peer : Peer
+        Our node in the tracker's graph.
     plots, tracks : str
         Topics.
-    context : Context
-        Of the ROS domain.
-    check : callable
-        Raises when waiting has become useless.
     own_ship : str
         Topic, or ''.
 
     """
 
-    def __init__(
-        self,
-        plots: str,
-        tracks: str,
-        context: Context,
-        check: Callable[[], object],
-        own_ship: str = '',
-    ) -> None:
-        self._node = Node('recording_player', context=context)
-        self._check = check
-        self._answers: dict[Stamp, bytes] = {}
+    def __init__(self, peer: Peer, plots: str, tracks: str, own_ship: str = '') -> None:
+        self._peer = peer
+        self._answers: list[bytes] = []
         self._newest: bytes | None = None  # odometry of own ship
-        self._plots = self._node.create_publisher(PointCloud2, plots, QoSProfile(depth=50))
-        self._tracks = self._node.create_subscription(
-            PointCloud2, tracks, self._hear, QoSProfile(depth=50), raw=True
-        )
-        publish = self._node.create_publisher
-        self._own_ship = publish(Odometry, own_ship, QoSProfile(depth=50)) if own_ship else None
-        self._loop = SingleThreadedExecutor(context=context)
-        self._loop.add_node(self._node)
-
-    def _hear(self, cdr: bytes) -> None:
-        self._answers[stamp_of(cdr)] = cdr
+        self._plots = peer.tell(PointCloud2, plots)
+        self._tracks = peer.hear(PointCloud2, tracks, self._answers, raw=True)
+        self._own_ship = peer.tell(Odometry, own_ship) if own_ship else None
 
     def find_tracker(self) -> None:
         """Wait until the tracker and we know each other."""
-        if not self._spin(self._is_found, DISCOVERY):
-            raise NodeFailed(f'no tracker found within {DISCOVERY:g} s')
-
-    def _is_found(self) -> bool:
-        return bool(
-            self._plots.get_subscription_count()
-            and self._node.count_publishers(self._tracks.topic_name)
-            and (self._own_ship is None or self._own_ship.get_subscription_count())
-        )
+        ends = [end for end in (self._plots, self._tracks, self._own_ship) if end is not None]
+        try:
+            self._peer.wait_until_matched(*ends, deadline=DISCOVERY)
+        except TimeoutError as error:
+            raise NodeFailed(f'no tracker found: {error}') from error
 
     def wait(self, until: float) -> None:
         """Wait until a time of the monotonic clock [s]."""
-        self._spin(lambda: False, until - time.monotonic())
+        self._peer.spin(lambda: False, until - time.monotonic())
 
     def tell_own_ship(self, cdr: bytes | memoryview) -> None:
         """Send own ship's odometry, and once more with the next plots that are not answered."""
@@ -110,47 +80,30 @@ class Player:
         if self._own_ship is not None and self._newest is not None:
             self._own_ship.publish(self._newest)
 
-    def ask(self, cdr: bytes | memoryview) -> bytes | None:
-        """Send plots and return the serialised tracks that answer them, None without an answer."""
-        stamp = stamp_of(cdr)
+    def ask(self, cdr: bytes | memoryview) -> bytes:
+        """Send plots and return the serialised tracks that answer them."""
+        question, stamp = bytes(cdr), stamp_of(cdr)
         self._answers.clear()
-        # A second copy of what did arrive is refused by its stamp, and does no harm.
-        for _ in range(round(ANSWER / AGAIN)):
-            self._plots.publish(bytes(cdr))
-            if self._spin(lambda: stamp in self._answers, AGAIN):
-                return self._answers[stamp]
-            self._send_own_ship()
-        return None
 
-    def _spin(self, is_done: Callable[[], bool], patience: float) -> bool:
-        deadline = time.monotonic() + patience
-        while not is_done():
-            left = deadline - time.monotonic()
-            if left <= 0.0:
-                return False
-            self._loop.spin_once(timeout_sec=min(left, TICK))
-            self._check()
-        return True
+        def send(attempt: int) -> None:
+            # A second copy of what did arrive is refused by its stamp, and does no harm.
+            if attempt:
+                self._send_own_ship()
+            self._plots.publish(question)
 
-    def close(self) -> None:
-        """Leave the graph."""
-        self._loop.shutdown()
-        self._node.destroy_node()
+        self._peer.ask(
+            send,
+            lambda: self._answers and stamp_of(self._answers[-1]) == stamp,
+            f'tracks of the plots at {stamp[0]}.{stamp[1]:09d}',
+            deadline=ANSWER,
+        )
+        return self._answers[-1]
 
 
 @contextmanager
 def open_player(
     plots: str, tracks: str, domain_id: int, check: Callable[[], object], own_ship: str = ''
 ) -> Iterator[Player]:
-    """Yield a player in this ROS domain; Ctrl-C stays a KeyboardInterrupt."""
-    context = Context()
-    rclpy.init(
-        args=[], context=context, domain_id=domain_id,
-        signal_handler_options=SignalHandlerOptions.NO,
-    )  # fmt: skip
-    player = Player(plots, tracks, context, check, own_ship)
-    try:
-        yield player
-    finally:
-        player.close()
-        try_shutdown(context=context)
+    """Yield a player in this ROS domain; `check` raises when waiting has become useless."""
+    with Peer(domain_id, 'recording_player', check=check) as peer:
+        yield Player(peer, plots, tracks, own_ship)

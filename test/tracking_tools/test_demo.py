@@ -16,7 +16,7 @@ from msg_adapters.table import to_columns
 from tracking_tools.bags import open_bag
 from tracking_tools.demo import main
 from tracking_tools.held import count_false, find_holds
-from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain
+from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.scene import Scene
 
 ROOT = Path(__file__).parents[2]
@@ -148,9 +148,9 @@ def test_node_process_insists(tmp_path, monkeypatch):
     )
     log = tmp_path / 'log'
     monkeypatch.setenv('PYTHONPATH', str(tmp_path))
-    process = NodeProcess('deaf', [], 1, log, patience=0.2)
+    process = NodeProcess(python_node('deaf'), 1, log, patience=0.2)
     with process:
-        wait_for(lambda: 'ready' in log.read_text(), process.process)
+        process.wait_for_line('ready')
         process.check()
     assert process.exit_code == -signal.SIGTERM
     with pytest.raises(NodeFailed, match='ended with code -15'):

@@ -1,0 +1,68 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Check what users test their own graphs with: the example of its page, and what it says."""
+
+import os
+from pathlib import Path
+import re
+import subprocess
+import sys
+
+from diagnostic_msgs.msg import DiagnosticArray
+import pytest
+
+from tracking_tools.testing import NodeFailed, NodeProcess, Peer, TrackerProbe
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / 'docs' / 'testing.md'
+
+
+def test_example_of_the_page_runs(tmp_path):
+    """Whoever copies it has two tests that pass."""
+    (example,) = re.findall(r'```python\n(.*?)```', PAGE.read_text(), re.DOTALL)
+    file = tmp_path / 'test_example.py'
+    file.write_text(example)
+    done = subprocess.run(
+        [sys.executable, '-m', 'pytest', '-q', '-p', 'no:cacheprovider', str(file)],
+        cwd=tmp_path, env={**os.environ, 'PYTHONPATH': str(ROOT)},
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    print(done.stdout)
+    assert '2 passed' in done.stdout, done.stdout + done.stderr
+
+
+def test_page_names_every_method_that_there_is():
+    """What a probe and a peer can do is on the page."""
+    text = PAGE.read_text()
+    for kind in (Peer, NodeProcess, TrackerProbe):
+        for name in vars(kind):
+            assert name.startswith('_') or name in ('close', 'spin', 'stop') or name in text, name
+
+
+def test_waiting_says_for_what(ros_domain_id):
+    """A deadline that passes names topic, service or state."""
+    with Peer(ros_domain_id) as peer:
+        end = peer.hear(DiagnosticArray, 'nothing', [])
+        with pytest.raises(TimeoutError, match=r'0\.1 s in vain for somebody else on /nothing'):
+            peer.wait_until_matched(end, deadline=0.1)
+        with pytest.raises(TimeoutError, match='service nobody/get_state'):
+            peer.wait_until_active('nobody', deadline=0.1)
+    with (
+        TrackerProbe(ros_domain_id) as probe,
+        pytest.raises(TimeoutError, match='3 track tables'),
+    ):
+        probe.collect(3, deadline=0.1)
+
+
+def test_waiting_for_a_node_that_has_died_ends_at_once(ros_domain_id, tmp_path):
+    """The error shows what the node said last."""
+    command = [sys.executable, '-c', 'print("no such antenna"); raise SystemExit(3)']
+    with NodeProcess(command, ros_domain_id, tmp_path / 'log') as node:
+        with pytest.raises(NodeFailed, match='never said'):
+            node.wait_for_line('ready')
+        with (
+            Peer(ros_domain_id, check=node.check) as peer,
+            pytest.raises(NodeFailed, match=r'code 3; last lines of .*\n.*no such antenna'),
+        ):
+            peer.wait_until_active('radar_tracker')
+    assert node.exit_code == 3
