@@ -14,12 +14,15 @@ ARGS ?=
 unexport AMENT_PREFIX_PATH LD_LIBRARY_PATH PYTHONPATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo demo-sonar test soak coverage lint clean
+.PHONY: help setup peers demo demo-sonar test soak coverage lint clean
 
 help: ## say what can be made
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 setup: $(READY) ## make the environment .venv if it is missing or out of date
+
+peers: $(READY) ## install what our tracks and figures are compared with
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[peers]'
 
 demo: $(READY) ## play a recorded scene through the live radar node and draw what came out
 	$(BIN)/python -m tracking_tools.demo $(ARGS)

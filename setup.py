@@ -71,6 +71,7 @@ setup(
     zip_safe=True,
     entry_points={
         'console_scripts': [
+            'evaluate = tracking_tools.evaluate:main',
             'radar_tracker = radar_tracker.node:main',
             'replay = tracking_tools.replay:main',
             'simulate = tracking_tools.simulate:main',

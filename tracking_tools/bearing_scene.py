@@ -66,7 +66,7 @@ def read_bearing_scene(
         Our names of their fields to those of the messages.
 
     """
-    platform = _platform(recording, topics.ownship)
+    platform = read_platform(recording, topics.ownship)
     marks = read_rows(recording, topics.plots, lambda msg: _marks(msg, sensor, fields))
     # Marks in the frame of own ship's odometry are true bearings.
     turned = frame_of(recording, topics.plots) != frame_of(recording, topics.ownship)
@@ -83,7 +83,7 @@ def read_bearing_scene(
     return BearingScene(marks, choose(table, confirmed), truth, own)
 
 
-def _platform(recording: Path | str, topic: str) -> Platform | None:
+def read_platform(recording: Path | str, topic: str) -> Platform | None:
     """Return own ship all through the recording, None without."""
     platform = Platform.empty(_UNLIMITED, int(_UNLIMITED))
     with open_bag(recording) as bag:

@@ -96,13 +96,10 @@ class Topics:
 def check_topics(bag: AnyReader, topics: Topics, path: Path | str) -> None:
     """Raise BadBag unless the bag has plots, and every topic that we read is of its type."""
     there = {connection.topic: connection.msgtype for connection in bag.connections}
-    inventory = ', '.join(
-        f'{name} ({bag.topics[name].msgtype}, {bag.topics[name].msgcount} messages)'
-        for name in sorted(there)
-    )
+    has = inventory(bag)
     if topics.plots not in there:
         raise BadBag(
-            f'{path} has no topic {topics.plots}; it has {inventory or "no topics"}. '
+            f'{path} has no topic {topics.plots}; it has {has}. '
             f'Say which are the {topics.sensor} with --remap {topics.sensor}:=/TOPIC'
         )
     try:
@@ -110,14 +107,19 @@ def check_topics(bag: AnyReader, topics: Topics, path: Path | str) -> None:
     except ValueError as error:
         raise BadBag(
             f'{path}: {topics.plots} is {there[topics.plots]}, expected '
-            f'sensor_msgs/msg/PointCloud2 or another type of plots: {error}; it has {inventory}'
+            f'sensor_msgs/msg/PointCloud2 or another type of plots: {error}; it has {has}'
         ) from error
     for name, expected in TYPES.items():
         topic = getattr(topics, name)
         if there.get(topic, expected) != expected:
-            raise BadBag(
-                f'{path}: {topic} is {there[topic]}, expected {expected}; it has {inventory}'
-            )
+            raise BadBag(f'{path}: {topic} is {there[topic]}, expected {expected}; it has {has}')
+
+
+def inventory(bag: AnyReader) -> str:
+    """Return what a bag has, for people."""
+    names = sorted({connection.topic for connection in bag.connections})
+    parts = [f'{n} ({bag.topics[n].msgtype}, {bag.topics[n].msgcount} messages)' for n in names]
+    return ', '.join(parts) or 'no topics'
 
 
 def messages_of(

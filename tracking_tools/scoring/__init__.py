@@ -3,8 +3,9 @@
 """
 How good are the tracks? Measures of tracks against truth, without ROS.
 
-Read ``records`` (what is compared), ``matching`` (who is whose), ``continuity`` and ``accuracy``
-(how well), ``gospa`` (all in one figure) and ``score`` (everything at once) in this order.
+Read ``records`` (what is compared), ``targets`` (what ought to be held), ``matching`` (who is
+whose), ``continuity``, ``accuracy`` and ``consistency`` (how well), ``gospa`` and ``ospa`` (all in
+one figure), ``siap``, ``onsets``, and ``score`` (all measures beside the plots) in this order.
 """
 
 from tracking_tools.scoring.accuracy import Accuracy, plot_error, track_error
@@ -15,11 +16,11 @@ from tracking_tools.scoring.records import (
     confirmed_rows,
     join_rows,
     PlotRows,
-    Targets,
     TrackRows,
     Truth,
 )
 from tracking_tools.scoring.score import Score, score
+from tracking_tools.scoring.targets import Targets
 
 __all__ = [
     'Accuracy',

@@ -27,6 +27,8 @@ class Accuracy:
     nees_state: float = NAN
     offset: tuple[float, ...] = ()  # median of the error by axis [m]
     rows: int = 0
+    velocity_straight: float = NAN
+    velocity_turning: float = NAN
 
 
 def track_error(rows: TrackRows, matches: Matches, has_velocity: bool = True) -> Accuracy:
@@ -37,13 +39,16 @@ def track_error(rows: TrackRows, matches: Matches, has_velocity: bool = True) ->
     velocity = rows.velocity[row] - truth.velocity[new]
     P, d = rows.covariance[row], position.shape[1]
     state = np.concatenate([position, velocity], axis=1)
+    speed = _split(velocity, truth.turning[new]) if has_velocity else (NAN, NAN, NAN)
     return Accuracy(
         *_split(position, truth.turning[new]),
-        velocity_rmse=_rms(velocity) if has_velocity else NAN,
+        velocity_rmse=speed[0],
         nees_position=_nees(position, P[:, :d, :d]),
         nees_state=_nees(state, P) if has_velocity else NAN,
         offset=_offset(position),
         rows=len(row),
+        velocity_straight=speed[1],
+        velocity_turning=speed[2],
     )
 
 
@@ -74,7 +79,9 @@ def _offset(error: Floats) -> tuple[float, ...]:
 
 def _nees(error: Floats, P: Floats) -> float:
     """Return the mean normalised squared error per dimension."""
-    if len(error) == 0:
-        return NAN
-    normalised = (error * np.linalg.solve(P, error[..., None])[..., 0]).sum(axis=1)
-    return float(normalised.mean() / error.shape[1])
+    return float(normalised(error, P).mean() / error.shape[1]) if len(error) else NAN
+
+
+def normalised(error: Floats, P: Floats) -> Floats:
+    """Return the squares (N,) of errors (N, n) normalised by covariances (N, n, n)."""
+    return np.asarray((error * np.linalg.solve(P, error[..., None])[..., 0]).sum(axis=1))

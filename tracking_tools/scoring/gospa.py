@@ -53,9 +53,18 @@ def gospa(
 
     """
     N, M = len(estimates), len(targets)
+    distance = cdist(estimates, targets) if N and M else np.zeros((N, M))
+    return gospa_of_distances(distance, cutoff, power, alpha)
+
+
+def gospa_of_distances(
+    distance: Floats, cutoff: float = 1000.0, power: float = 2.0, alpha: float = 2.0
+) -> GospaParts:
+    """Return the metric from the distances (N, M) of estimates and targets."""
+    N, M = distance.shape
     if N == 0 or M == 0:
         return GospaParts(float((cutoff**power / alpha * (N + M)) ** (1.0 / power)), 0.0, M, N)
-    cost = np.minimum(cdist(estimates, targets), cutoff) ** power
+    cost = np.minimum(distance, cutoff) ** power
     paired = cost[linear_sum_assignment(cost)]
     close = paired < cutoff**power
     total = paired.sum() + cutoff**power / alpha * abs(N - M)

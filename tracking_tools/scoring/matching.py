@@ -72,18 +72,23 @@ def _near(rows: TrackRows, target: Truth, radius: float, slack: float) -> Matche
     begin, end = target.time[0] - slack, target.time[-1] + slack
     row = np.flatnonzero((rows.time >= begin) & (rows.time <= end))
     place = target.at(rows.time[row])
-    distance = np.linalg.norm(rows.position[row] - place.position, axis=1)
+    position = rows.beside(row, place.position)
+    distance = np.linalg.norm(rows.position[row] - position, axis=1)
     near = distance <= radius
     row = row[near]
     return Matches(
         row, rows.scan[row], rows.id[row], np.full(len(row), target.id[0]), distance[near],
-        place.position[near], place.velocity[near], place.turning[near],
+        position[near], place.velocity[near], place.turning[near],
     )  # fmt: skip
 
 
 def match(rows: TrackRows, truth: Truth, radius: float, slack: float = 0.0) -> Matches:
     """Match tracks and targets one to one in every scan; parameters as for `candidates`."""
-    near = candidates(rows, truth, radius, slack)
+    return choose_pairs(candidates(rows, truth, radius, slack), radius)
+
+
+def choose_pairs(near: Matches, radius: float) -> Matches:
+    """Return the best one-to-one choice of every scan from candidates within this radius [m]."""
     edges = np.flatnonzero(np.diff(near.scan)) + 1
     chosen = [
         part[_assign(near.row[part], near.target[part], near.distance[part], radius)]

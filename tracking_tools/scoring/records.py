@@ -6,11 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from msg_adapters.tracks import AXES, kinematics
 from tracking_core.batches import Bools, Floats, Ints, Tracks
+from tracking_core.linalg import nearest_turn
 from tracking_core.rows import take
 
 FALSE_PLOT = -1
@@ -26,9 +28,14 @@ class TrackRows:
     position: Floats  # (N, d) [m]
     velocity: Floats  # (N, d) [m/s]
     covariance: Floats  # (N, 2 d, 2 d) positions first, then velocities
+    angular: bool = False  # positions are bearings [rad], velocities their rates
 
     def __len__(self) -> int:
         return len(self.id)
+
+    def beside(self, row: Ints, place: Floats) -> Floats:
+        """Return places (K, d) as seen from these rows: bearings in the turn of the row's."""
+        return nearest_turn(place, self.position[row]) if self.angular else place
 
     @property
     def is_new(self) -> Bools:
@@ -53,12 +60,9 @@ def confirmed_rows(scan: int, tracks: Tracks, output: str = 'mmse') -> TrackRows
 
 def join_rows(parts: Sequence[TrackRows]) -> TrackRows:
     """Return the rows of all scans in one batch; at least one part."""
-    return TrackRows(
-        *(
-            np.concatenate([getattr(part, name) for part in parts])
-            for name in ('scan', 'id', 'time', 'position', 'velocity', 'covariance')
-        )
-    )
+    names = ('scan', 'id', 'time', 'position', 'velocity', 'covariance')
+    columns: Any = {n: np.concatenate([getattr(part, n) for part in parts]) for n in names}
+    return TrackRows(**columns, angular=parts[0].angular)
 
 
 @dataclass(frozen=True)
@@ -112,35 +116,6 @@ class Truth:
         position += velocity * (times - inner)[:, None]
         nearer = np.where(s[:, 0] < 0.5, before, after)
         return Places(position, velocity, self.turning[nearer])
-
-
-@dataclass(frozen=True)
-class Targets:
-    """Which targets a tracker ought to hold, and from which scan to which."""
-
-    id: Ints  # (J,)
-    first_scan: Ints  # (J,)
-    last_scan: Ints  # (J,) inclusive
-
-    @staticmethod
-    def of_plots(contact: Ints, scan: Ints, nth: int = 4) -> Targets:
-        """Return those with `nth` plots or more, from their nth plot to the last."""
-        ids, first, last = [], [], []
-        for target in np.unique(contact[contact != FALSE_PLOT]):
-            scans = np.sort(scan[contact == target])
-            if len(scans) >= nth:
-                ids.append(target)
-                first.append(scans[nth - 1])
-                last.append(scans[-1])
-        return Targets(*(np.array(values, np.int64) for values in (ids, first, last)))
-
-    def wanted(self, target: Ints, scan: Ints) -> Bools:
-        """Return for pairs of target and scan whether the target ought to be held there."""
-        if len(self.id) == 0:
-            return np.zeros(len(target), bool)
-        row = np.clip(np.searchsorted(self.id, target), 0, len(self.id) - 1)
-        inside = (scan >= self.first_scan[row]) & (scan <= self.last_scan[row])
-        return np.asarray((self.id[row] == target) & inside)
 
 
 @dataclass(frozen=True)

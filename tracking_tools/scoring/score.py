@@ -12,7 +12,8 @@ from tracking_core.rows import take
 from tracking_tools.scoring.accuracy import Accuracy, plot_error, track_error
 from tracking_tools.scoring.continuity import Continuity, continuity
 from tracking_tools.scoring.matching import candidates, match
-from tracking_tools.scoring.records import PlotRows, Targets, TrackRows, Truth
+from tracking_tools.scoring.records import PlotRows, TrackRows, Truth
+from tracking_tools.scoring.targets import Targets
 
 
 @dataclass(frozen=True)

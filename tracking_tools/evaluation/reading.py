@@ -1,0 +1,185 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is compared? The rows of a tracks bag, and the truth of another or the same bag."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.message_types import seconds
+from msg_adapters.table import Columns
+from msg_adapters.track_rows import CONFIRMED
+from tracking_core.batches import Floats
+from tracking_tools.bags import open_bag
+from tracking_tools.bearing_scene import read_platform
+from tracking_tools.evaluation.rows import bearing_rows, NEEDED, position_rows
+from tracking_tools.evaluation.truths import bearings_of, positions_of, ranges_of
+from tracking_tools.replay_topics import BadBag, inventory, Topics
+from tracking_tools.scene import choose, read_rows, table_rows
+from tracking_tools.scoring import TrackRows, Truth
+from tracking_tools.sensors import SENSORS
+
+POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """Confirmed tracks of one recording and what was really there."""
+
+    sensor: str  # 'radar' or 'sonar'
+    rows: TrackRows  # sonar: one coordinate, the bearing
+    table: Columns  # all columns of these rows
+    truth: Truth
+    starts: Floats  # (K + 1,) when each scan begins, and when the last one ends [s]
+    has_velocity: bool  # whether the truth tells velocities
+    ranges: Columns | None = None  # sonar: id, time, range [m] of the truth
+
+    @property
+    def scans(self) -> int:
+        """How many track tables there are."""
+        return len(self.starts) - 1
+
+    @property
+    def manoeuvre_probability(self) -> Floats:
+        """Of each row (N,); NaN where the table does not tell."""
+        told = self.table.get('manoeuvre_probability', np.full(len(self.rows), np.nan))
+        return np.asarray(told, np.float64)
+
+    @property
+    def plot_size(self) -> int:
+        """How many coordinates a plot has, which its NIS is of."""
+        return int(self.rows.position.shape[1])
+
+    @property
+    def duration(self) -> float:
+        """How long the tracks were recorded [s]."""
+        return float(self.starts[-1] - self.starts[0])
+
+
+def read_recorded(
+    tracks: Path | str,
+    truth: Path | str,
+    rules: Sequence[str] = (),
+    sensor: str | None = None,
+    turning: float = 0.014,
+) -> Recorded:
+    """
+    Return tracks and truth of bags.
+
+    Parameters
+    ----------
+    tracks : Path or str
+        Bag with track tables.
+    truth : Path or str
+        Bag with the truth; of a sonar also with own ship, if it moved.
+    rules : sequence of str
+        Other topics, ``truth:=/other``; also ``tracks`` and ``ownship``.
+    sensor : str, optional
+        'radar' or 'sonar'; the tracks tell by themselves which.
+    turning : float
+        A target turns when its course changes faster than this [rad/s].
+
+    Raises
+    ------
+    BadBag
+        If a topic or a column is missing, nothing is there, or the times do not overlap.
+    FileNotFoundError
+        If there is no bag.
+
+    """
+    kind, topics = find_sensor(tracks, rules, sensor)
+    table, stamps = _read_tracks(tracks, topics, NEEDED[kind])
+    real = read_table(truth, topics.truth, ('id', 'x', 'y'))
+    _check_overlap(stamps, real['time'], tracks, truth)
+    ranges = None
+    if kind == 'sonar':
+        platform = read_platform(truth, topics.ownship)
+        told, ranges = bearings_of(real, platform, turning), ranges_of(real, platform)
+    else:
+        told = positions_of(real, turning)
+    rows = bearing_rows(table, stamps) if kind == 'sonar' else position_rows(table, stamps)
+    d = rows.position.shape[1]
+    told = replace(told, position=told.position[:, :d], velocity=told.velocity[:, :d])
+    period = float(np.median(np.diff(stamps))) if len(stamps) > 1 else 1.0
+    starts = np.append(stamps, stamps[-1] + period)
+    return Recorded(kind, rows, table, told, starts, 'vx' in real, ranges)
+
+
+def find_sensor(bag: Path | str, rules: Sequence[str], sensor: str | None) -> tuple[str, Topics]:
+    """Return which sensor's tracks a bag has, and the topics."""
+    kinds = SENSORS if sensor is None else {sensor: SENSORS[sensor]}
+    named = {kind: Topics.remapped(rules, s) for kind, s in kinds.items()}
+    with open_bag(bag) as reader:
+        there = {c.topic: c for c in reader.connections}
+        fits = {kind: topics for kind, topics in named.items() if topics.tracks in there}
+        if not fits:
+            wanted = ' or '.join(topics.tracks for topics in named.values())
+            raise BadBag(
+                f'{bag} has no topic {wanted}; it has {inventory(reader)}. '
+                'Say which are the tracks with --remap tracks:=/TOPIC'
+            )
+        if len(fits) > 1:  # one topic, given by a rule
+            topic = next(iter(fits.values())).tracks
+            for _, _, raw in reader.messages([there[topic]]):
+                msg: Any = reader.deserialize(raw, there[topic].msgtype)
+                kind = 'sonar' if 'bearing' in {f.name for f in msg.fields} else 'radar'
+                return kind, fits[kind]
+    return next(iter(fits.items()))
+
+
+def read_table(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
+    """Return the rows of all tables on a topic; BadBag without them or without these columns."""
+    _check_topic(bag, topic)
+    table = read_rows(bag, topic, table_rows)
+    if not table:
+        raise BadBag(f'{bag}: {topic} has no rows')
+    missing = [name for name in needed if name not in table]
+    if missing:
+        raise BadBag(f'{bag}: {topic} has no column {", ".join(missing)}; it has '
+                     f'{", ".join(table)}')  # fmt: skip
+    return table
+
+
+def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tuple[Columns, Floats]:
+    """Return the confirmed rows and the stamps of all tables, also of those without rows."""
+    _check_topic(bag, topics.tracks)
+    stamps: list[float] = []
+
+    def convert(msg: Any) -> Columns:
+        stamps.append(seconds(msg.header.stamp))
+        return table_rows(msg)
+
+    table = read_rows(bag, topics.tracks, convert)
+    if not stamps:
+        raise BadBag(f'{bag}: {topics.tracks} has no messages')
+    missing = [name for name in needed if table and name not in table]
+    if missing:
+        raise BadBag(f'{bag}: {topics.tracks} has no column {", ".join(missing)}')
+    if not table or not (table['status'] == CONFIRMED).any():
+        raise BadBag(f'{bag}: {topics.tracks} has {len(stamps)} messages, but no confirmed track')
+    confirmed = choose(table, table['status'] == CONFIRMED)
+    order = np.argsort(confirmed['stamp'], kind='stable')
+    return choose(confirmed, order), np.unique(stamps)
+
+
+def _check_topic(bag: Path | str, topic: str) -> None:
+    with open_bag(bag) as reader:
+        kinds = {c.topic: c.msgtype for c in reader.connections}
+        if kinds.get(topic) != POINT_CLOUD:
+            raise BadBag(
+                f'{bag} has no topic {topic} of type {POINT_CLOUD}; it has {inventory(reader)}. '
+                'Say which it is with --remap FROM:=/TOPIC'
+            )
+
+
+def _check_overlap(stamps: Floats, real: Floats, tracks: Path | str, truth: Path | str) -> None:
+    if stamps[-1] < real.min() or stamps[0] > real.max():
+        raise BadBag(
+            f'the tracks of {tracks} are from {stamps[0]:.3f} to {stamps[-1]:.3f} s, the truth of '
+            f'{truth} from {real.min():.3f} to {real.max():.3f} s: they have no time in common'
+        )

@@ -1,0 +1,40 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which columns of a track table are compared with the truth?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from msg_adapters.table import Columns
+from tracking_core.batches import Floats
+from tracking_tools.scoring import TrackRows
+
+NEEDED = {
+    'radar': ('id', 'status', 'x', 'y', 'z', 'vx', 'vy', 'vz', 'covariance'),
+    'sonar': ('id', 'status', 'bearing', 'bearing_rate', 'bearing_sd', 'bearing_rate_sd'),
+}
+
+
+def position_rows(table: Columns, stamps: Floats) -> TrackRows:
+    """Return the rows of a radar's table; `stamps` (K,) are those of the scans [s]."""
+    full = table['covariance'].reshape(-1, 6, 6)
+    d = 3 if np.isfinite(full[:, 2, 2]).all() else 2  # a radar without heights has none
+    state = np.stack([table[n] for n in ('x', 'y', 'z', 'vx', 'vy', 'vz')], axis=1)
+    state = state.astype(np.float64)
+    at = np.concatenate([np.arange(d), 3 + np.arange(d)])
+    return TrackRows(
+        np.searchsorted(stamps, table['stamp']), table['id'].astype(np.int64), table['time'],
+        state[:, :d], state[:, 3 : 3 + d], full[:, at[:, None], at],
+    )  # fmt: skip
+
+
+def bearing_rows(table: Columns, stamps: Floats) -> TrackRows:
+    """Return the rows of a sonar's table; `stamps` (K,) are those of the scans [s]."""
+    column = {n: table[n].astype(np.float64)[:, None] for n in NEEDED['sonar'][2:]}
+    variance = np.concatenate([column['bearing_sd'], column['bearing_rate_sd']], axis=1) ** 2
+    covariance = variance[:, :, None] * np.eye(2)  # the table does not tell the correlation
+    return TrackRows(
+        np.searchsorted(stamps, table['stamp']), table['id'].astype(np.int64), table['time'],
+        column['bearing'], column['bearing_rate'], covariance, angular=True,
+    )  # fmt: skip

@@ -1,0 +1,34 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""In which units figures are shown to people."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+
+@dataclass(frozen=True)
+class Unit:
+    """Of a distance and of how fast it changes."""
+
+    place: str
+    motion: str
+    scale: float
+    far_unit: str
+    fast_unit: str
+    digits: int
+
+    def far(self, value: float) -> str:
+        """Return a distance with its unit."""
+        return f'{value * self.scale:.{self.digits}f} {self.far_unit}'
+
+    def fast(self, value: float) -> str:
+        """Return a speed with its unit."""
+        return f'{value * self.scale:.{self.digits + 1}f} {self.fast_unit}'
+
+
+UNITS = {
+    'radar': Unit('position', 'velocity', 1.0, 'm', 'm/s', 1),
+    'sonar': Unit('bearing', 'bearing rate', math.degrees(1.0), 'deg', 'deg/s', 3),
+}

@@ -1,0 +1,80 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How soon does the manoeuvre probability tell that a target turns?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracking_core.batches import Floats
+from tracking_core.rows import take
+from tracking_tools.scoring.matching import Matches
+from tracking_tools.scoring.records import TrackRows, Truth
+
+NAN = float('nan')
+SURE = 0.5  # manoeuvre probability that counts as told
+QUIET = 3  # samples straight before, and turning after, the onset of a manoeuvre
+
+
+@dataclass(frozen=True)
+class Onsets:
+    """Manoeuvres of targets that a track was on, and when it told of them."""
+
+    begin: Floats  # (Q,) [s]
+    delay: Floats  # (Q,) from the onset to the first row that tells [s], NaN: not told in the turn
+
+    @property
+    def mean(self) -> float:
+        """Mean delay of those that were told [s]."""
+        told = self.delay[np.isfinite(self.delay)]
+        return float(told.mean()) if len(told) else NAN
+
+    @property
+    def told(self) -> int:
+        """How many were told."""
+        return int(np.isfinite(self.delay).sum())
+
+
+def find_onsets(rows: TrackRows, probability: Floats, matches: Matches, target: Truth) -> Onsets:
+    """
+    Return the manoeuvres of one target.
+
+    Parameters
+    ----------
+    rows : TrackRows
+        What the tracker said.
+    probability : (N,) array
+        Of a manoeuvre, row by row.
+    matches : Matches
+        Of this target.
+    target : Truth
+        Its samples.
+
+    """
+    time, told = rows.time[matches.row], probability[matches.row] >= SURE
+    begin, delay = [], []
+    for first, last in zip(*_turns(target), strict=True):
+        onset = 0.5 * (target.time[first - 1] + target.time[first])
+        inside = (time >= onset) & (time <= target.time[last])
+        if inside.any():
+            tells = time[inside & told]
+            begin.append(onset)
+            delay.append(tells.min() - onset if len(tells) else NAN)
+    return Onsets(np.array(begin), np.array(delay))
+
+
+def _turns(target: Truth) -> tuple[list[int], list[int]]:
+    """Return first and last sample of each turn that begins after straight motion."""
+    edge = np.flatnonzero(np.diff(target.turning.astype(int), prepend=0, append=0))
+    first, last = edge[::2], edge[1::2] - 1
+    before = np.concatenate([[-1], last[:-1]])
+    fits = (first - before > QUIET) & (last - first + 1 >= QUIET)
+    return first[fits].tolist(), last[fits].tolist()
+
+
+def false_alarms(probability: Floats, matches: Matches) -> float:
+    """Return in which share of the rows on straight targets a manoeuvre was told."""
+    straight = take(matches, ~matches.turning)
+    return float((probability[straight.row] >= SURE).mean()) if len(straight) else NAN
