@@ -33,6 +33,7 @@ class Brush:
         scale: Any = None,
         color: Any = None,
         points: Any = (),
+        colors: Any = (),
         text: str = '',
     ) -> Any:
         """Return a shape of this kind, or the action DELETE or DELETEALL."""
@@ -49,7 +50,8 @@ class Brush:
             scale=self._unit if scale is None else self._vector('Vector3', scale),
             color=self._white if color is None else self._paint(color),
             lifetime=self._forever, frame_locked=False,
-            points=[self._vector('Point', point) for point in points], colors=[],
+            points=[self._vector('Point', point) for point in points],
+            colors=[self._paint(values) for values in colors],
             texture_resource='', texture=self._image, uv_coordinates=[], text=text,
             mesh_resource='', mesh_file=self._mesh, mesh_use_embedded_materials=False,
         )  # fmt: skip

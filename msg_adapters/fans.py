@@ -3,8 +3,8 @@
 """
 How sonar tracks are drawn: fans from where the sensor is, their mirror images, gates and ids.
 
-A fan is one triangle, scaled. Where the range is known, position and velocity are drawn too, as
-those of radar tracks.
+A fan is a few triangles, scaled, that fade outwards: how far the contact is, nobody knows. Where
+the range is known, position and velocity are drawn too, as those of radar tracks.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ from tracking_core.batches import Floats, Tracks
 
 LOCATED = ('velocity', 'covariance')
 NAMESPACES = ('fan', 'mirror', 'gate', 'id', *LOCATED)
-OPACITY = {'fan': 0.6, 'mirror': 0.2, 'gate': 0.12}
-NARROWEST, WIDEST = 1e-3, 1.2  # half widths that can be seen, and that are still fans [rad]
-# In the fan's own axes, before scaling: its point is the sensor.
-_TRIANGLE = ([0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0])
+OPACITY = {'fan': 0.7, 'mirror': 0.25, 'gate': 0.22}
+NARROWEST, WIDEST = 2e-3, 1.2  # half widths that can be seen, and that are still fans [rad]
+SLICES = 6  # triangles of a fan
+FADED = 0.4  # of the opacity is left at the end
 
 
 @dataclass(frozen=True)
@@ -110,19 +110,34 @@ def _fans(
     colour: Floats,
     brush: Brush,
 ) -> Iterator[Any]:
-    """Yield a triangle for each track; none where its width is not known."""
-    aside = fans.length * np.tan(np.clip(half_width, NARROWEST, WIDEST))
+    """Yield a fan for each track; none where its width is not known."""
+    half_width = np.clip(half_width, NARROWEST, WIDEST)
+    aside = fans.length * np.tan(half_width)
     zero, half = np.zeros(len(bearing)), 0.5 * bearing
     turn = np.stack([zero, zero, np.sin(half), np.cos(half)], axis=1)
     scale = np.stack([np.full(len(bearing), fans.length), aside, np.ones(len(bearing))], axis=1)
-    paint = colour * [1.0, 1.0, 1.0, OPACITY[space]]
-    rows = (values.tolist() for values in (tracks.id, turn, scale, paint))
-    for identity, toward, size, fill in zip(*rows, strict=True):
+    near = colour * [1.0, 1.0, 1.0, OPACITY[space]]
+    far = near * [1.0, 1.0, 1.0, FADED]
+    solid = np.column_stack([colour[:, :3], np.ones(len(colour))])  # viewers multiply
+    columns = tracks.id, turn, scale, solid, _slices(half_width), near, far
+    rows = (values.tolist() for values in columns)
+    for identity, toward, size, paint, points, begin, end in zip(*rows, strict=True):
         if np.isfinite(size[1]):
             yield brush.marker(
                 space, identity, 'TRIANGLE_LIST', position=fans.origin, turn=toward, scale=size,
-                color=fill, points=_TRIANGLE,
+                color=paint, points=points, colors=[begin, end, end] * SLICES,
             )  # fmt: skip
+        else:
+            yield brush.marker(space, identity, 'DELETE')
+
+
+def _slices(half_width: Floats) -> Floats:
+    """Return the corners (T, 3 K, 3) in the fan's own axes, before scaling; (1, 1) is a corner."""
+    angle = half_width[:, None] * np.linspace(-1.0, 1.0, SLICES + 1)
+    arc = np.stack([np.cos(angle), np.sin(angle) / np.tan(half_width[:, None])], axis=2)
+    corners = np.zeros((len(half_width), SLICES, 3, 3))
+    corners[:, :, 1, :2], corners[:, :, 2, :2] = arc[:, :-1], arc[:, 1:]
+    return corners.reshape(len(half_width), 3 * SLICES, 3)
 
 
 def _labels(tracks: Tracks, fans: Fans, colour: Floats, brush: Brush) -> Iterator[Any]:

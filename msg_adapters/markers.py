@@ -1,9 +1,9 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How radar tracks are drawn: history, velocity, covariance, gate and id.
+How radar tracks are drawn: a trail that fades, velocity, covariance, gate and id.
 
-Only the history is a line; the shapes are those of ``shapes.py``.
+Only the trail is a line; the shapes are those of ``shapes.py``.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from msg_adapters.shapes import (
     colours,
     ellipses,
     erase,
-    FLAT,
+    gates,
     labels,
     Look,
+    round_extent,
     rows,
-    shapes,
     THIN,
 )
 from msg_adapters.tracks import to_bodies
@@ -42,6 +42,7 @@ def to_markers(
     header: Any,
     types: MessageTypes,
     *,
+    lean: Floats,
     output: str,
     lead_time: float,
 ) -> Any:
@@ -60,6 +61,8 @@ def to_markers(
         Of the scan, in the tracking frame.
     types : MessageTypes
         Classes to build the message from.
+    lean : (T,) array
+        Correlation of x and y in the gates.
     output : str
         'mmse' or 'map'.
     lead_time : float
@@ -70,13 +73,13 @@ def to_markers(
     markers = erase(shown, tracks.id, NAMESPACES, brush)
     if len(tracks):
         bodies = to_bodies(tracks, output)
-        extent = max(float(np.abs(bodies.state[:, :3]).max()), 1.0)
+        extent = round_extent(bodies.state[:, :3])
         look = Look(bodies, colours(tracks.id, tracks.confirmed), extent)
         parts = (
             _histories(look, brush, trails),
             arrows(look, brush, lead_time),
             ellipses(look, brush),
-            _gates(look, brush, tracks.gate_size),
+            gates(look, brush, tracks.gate_size, lean),
             labels(look, brush),
         )
         markers.extend(chain.from_iterable(parts))
@@ -84,19 +87,16 @@ def to_markers(
 
 
 def _histories(look: Look, brush: Brush, trails: Trails) -> Iterator[Any]:
+    """Yield the trails, newest point first, from the colour of the track to nothing."""
     width = [THIN * look.extent, 0.0, 0.0]
-    position = trails.position
+    position = trails.of(look.bodies.id)
     known = np.isfinite(position[:, :, 0]).sum(axis=1)
+    fade = 1.0 - np.arange(position.shape[1]) / position.shape[1]
     for row, (identity, _, count, colour) in enumerate(rows(look, known, look.colour)):
         if count > 1:
-            points = position[row, :count].tolist()
+            *rgb, opacity = colour
             yield brush.marker(
-                'history', identity, 'LINE_STRIP', scale=width, color=colour, points=points
-            )
-
-
-def _gates(look: Look, brush: Brush, gate: Floats) -> Iterator[Any]:
-    size = np.full((len(gate), 3), FLAT)
-    size[:, : gate.shape[1]] = np.maximum(2.0 * gate, FLAT)
-    level = np.tile([0.0, 0.0, 0.0, 1.0], (len(gate), 1))
-    return shapes(look, brush, 'gate', kind='CUBE', turn=level, size=size)
+                'history', identity, 'LINE_STRIP', scale=width, color=colour,
+                points=position[row, :count].tolist(),
+                colors=[[*rgb, opacity * share] for share in fade[:count].tolist()],
+            )  # fmt: skip

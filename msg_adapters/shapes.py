@@ -21,10 +21,13 @@ from msg_adapters.message_types import MessageTypes
 from tracking_core.batches import Bools, Floats, Ints
 
 SIGMAS = 3.0  # half axes of the covariance ellipse
-GOLDEN = 0.618034  # of a turn of hue between two ids: neighbours differ most
+# Of hue and of whiteness from one id to the next: neighbours differ most (R2 sequence).
+HUE_STEP, WHITE_STEP = 0.7548777, 0.5698403
+PALE = 0.4  # opacity of what is tentative
 # Widths and letters, as a share of how far the contacts are spread.
-THIN, LETTER = 0.001, 0.012
-OPACITY = {'covariance': 0.5, 'gate': 0.15}
+THIN, LETTER = 0.0007, 0.012
+ASIDE = 1.2  # heights of a letter between a contact and its id
+OPACITY = {'covariance': 0.55, 'gate': 0.22}
 FLAT = 0.01  # m, height of what lies in the plane; RViz refuses 0
 
 
@@ -34,7 +37,7 @@ class Look:
 
     bodies: Bodies
     colour: Floats  # (T, 4) red, green, blue, opacity
-    extent: float  # how far the contacts are from the origin [m]
+    extent: float  # about how far the contacts are from the origin [m]
 
 
 def erase_all(header: Any, types: MessageTypes) -> Any:
@@ -53,11 +56,20 @@ def erase(shown: Set[int], ids: Ints, spaces: tuple[str, ...], brush: Brush) -> 
 
 def colours(ids: Ints, confirmed: Bools) -> Floats:
     """Return a bright colour (T, 4) for each id, pale while tentative."""
-    hue = (ids * GOLDEN) % 1.0
+    hue, white = ids * HUE_STEP % 1.0, 0.2 + 0.4 * (ids * WHITE_STEP % 1.0)
     third = np.array([0.0, 1.0, 2.0]) / 3.0
     rgb = np.clip(np.abs((hue[:, None] + third) % 1.0 * 6.0 - 3.0) - 1.0, 0.0, 1.0)
-    opacity = np.where(confirmed, 1.0, 0.4)
-    return np.column_stack([0.25 + 0.75 * rgb, opacity])
+    return np.column_stack([white[:, None] + (1.0 - white[:, None]) * rgb, _opacity(confirmed)])
+
+
+def _opacity(confirmed: Bools) -> Floats:
+    return np.where(confirmed, 1.0, PALE)
+
+
+def round_extent(position: Floats) -> float:
+    """Return a power of two beyond all positions (T, 3) [m]: letters grow in steps, seldom."""
+    farthest = float(np.abs(position).max(initial=1.0))
+    return float(2.0 ** np.ceil(np.log2(farthest))) if np.isfinite(farthest) else 1.0
 
 
 def rows(look: Look, *columns: Any) -> Iterator[tuple[Any, ...]]:
@@ -81,7 +93,7 @@ def arrows(look: Look, brush: Brush, lead_time: float) -> Iterator[Any]:
         axis=1,
     )
     length = np.maximum(np.hypot(speed, vz) * lead_time, FLAT)
-    width = 4.0 * THIN * look.extent
+    width = 3.0 * THIN * look.extent
     for identity, place, toward, ahead, colour in rows(look, turn, length, look.colour):
         yield brush.marker(
             'velocity', identity, 'ARROW', position=place, turn=toward,
@@ -90,36 +102,47 @@ def arrows(look: Look, brush: Brush, lead_time: float) -> Iterator[Any]:
 
 
 def ellipses(look: Look, brush: Brush) -> Iterator[Any]:
-    """Yield the covariance of each position."""
+    """Yield the covariance of each position, out to three sigma."""
+    return _ellipses(look, brush, 'covariance', SIGMAS**2 * look.bodies.covariance[:, :3, :3])
+
+
+def gates(look: Look, brush: Brush, half_size: Floats, lean: Floats) -> Iterator[Any]:
+    """Yield the gates: half sizes (T, 2) or (T, 3) [m], and how x goes with y in them (T,)."""
+    shape = np.zeros((len(lean), 3, 3))
+    axes = np.arange(half_size.shape[1])
+    shape[:, axes, axes] = half_size**2
+    shape[:, 0, 1] = shape[:, 1, 0] = lean * half_size[:, 0] * half_size[:, 1]
+    return _ellipses(look, brush, 'gate', shape)
+
+
+def _ellipses(look: Look, brush: Brush, space: str, shape: Floats) -> Iterator[Any]:
+    """Yield see-through ellipses, by the squares of their half axes (T, 3, 3); none if unknown."""
     # Closed form of two by two: it never fails, whatever the numbers.
-    (a, b), c = look.bodies.covariance[:, 0, :2].T, look.bodies.covariance[:, 1, 1]
+    (a, b), c = shape[:, 0, :2].T, shape[:, 1, 1]
     half_yaw, middle = 0.25 * np.arctan2(2.0 * b, a - c), 0.5 * (a + c)
     spread = np.hypot(0.5 * (a - c), b)
     zero = np.zeros(len(half_yaw))
     turn = np.stack([zero, zero, np.sin(half_yaw), np.cos(half_yaw)], axis=1)
-    height = np.nan_to_num(look.bodies.covariance[:, 2, 2])
-    variances = np.stack([middle + spread, middle - spread, height], axis=1)
-    size = np.maximum(2.0 * SIGMAS * np.sqrt(np.maximum(variances, 0.0)), FLAT)
-    return shapes(look, brush, 'covariance', kind='SPHERE', turn=turn, size=size)
-
-
-def shapes(
-    look: Look, brush: Brush, space: str, *, kind: str, turn: Floats, size: Floats
-) -> Iterator[Any]:
-    """Yield a see-through shape around each contact; none where the size is not known."""
+    squares = np.stack([middle + spread, middle - spread, np.nan_to_num(shape[:, 2, 2])], axis=1)
+    size = np.maximum(2.0 * np.sqrt(np.maximum(squares, 0.0)), FLAT)
     colour = look.colour * [1.0, 1.0, 1.0, OPACITY[space]]
     for identity, place, toward, scale, paint in rows(look, turn, size, colour):
         if np.isfinite(scale).all():
             yield brush.marker(
-                space, identity, kind, position=place, turn=toward, scale=scale, color=paint
+                space, identity, 'SPHERE', position=place, turn=toward, scale=scale, color=paint
             )
+        else:
+            yield brush.marker(space, identity, 'DELETE')
 
 
 def labels(look: Look, brush: Brush) -> Iterator[Any]:
-    """Yield the ids."""
+    """Yield the ids, to port of the contacts, where neither trail nor arrow is."""
     letter = LETTER * look.extent
-    above = look.bodies.state[:, :3] + [0.0, letter, 0.0]
-    for identity, _, place, colour in rows(look, above, look.colour):
+    vx, vy = look.bodies.state[:, 3:5].T
+    course = np.arctan2(vy, vx)
+    aside = np.stack([-np.sin(course), np.cos(course), 0.0 * course], axis=1)
+    place_of = look.bodies.state[:, :3] + ASIDE * letter * aside
+    for identity, _, place, colour in rows(look, place_of, look.colour):
         yield brush.marker(
             'id', identity, 'TEXT_VIEW_FACING', position=place, scale=[0.0, 0.0, letter],
             color=colour, text=str(identity),

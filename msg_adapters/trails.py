@@ -26,7 +26,13 @@ class Trails:
     def extend(self, ids: Ints, position: Floats) -> Trails:
         """Return the trails of these tracks (T,) with their newest positions (T, 3)."""
         trail = np.full((len(ids), *self.position.shape[1:]), np.nan)
-        _, old, new = np.intersect1d(self.id, ids, assume_unique=True, return_indices=True)
-        trail[new, 1:] = self.position[old, :-1]
+        trail[:, 1:] = self.of(ids)[:, :-1]
         trail[:, 0] = position
         return Trails(ids, trail)
+
+    def of(self, ids: Ints) -> Floats:
+        """Return the positions (T, K, 3) of these tracks (T,) [m], NaN for those without."""
+        trail = np.full((len(ids), *self.position.shape[1:]), np.nan)
+        _, old, new = np.intersect1d(self.id, ids, assume_unique=True, return_indices=True)
+        trail[new] = self.position[old]
+        return trail

@@ -7,6 +7,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Set
 from typing import Any
 
+import numpy as np
+
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.bodies import Bodies
 from msg_adapters.frames import TrackingFrame
@@ -21,7 +23,7 @@ from msg_adapters.tracks import from_tracks, kinematics, to_bodies
 from msg_adapters.trails import Trails
 from radar_tracker.config import MountConfig, RadarTrackerConfig
 from radar_tracker.tracker import RadarTracker
-from tracking_core.batches import Plots, Tracks
+from tracking_core.batches import Floats, Plots, Tracks
 from tracking_core.platform import Platform
 from tracking_core.rows import take
 
@@ -109,6 +111,20 @@ class RadarInstrument:
     def draw(self, shown: Set[int], header: Any, markers: Any) -> Any:
         """Return the MarkerArray of the tracks."""
         return to_markers(
-            self.tracker.tracks, self._trails, shown, header, self._types,
+            self.tracker.tracks, self._trails, shown, header, self._types, lean=self._lean(),
             output=self.tracker.config.output, lead_time=markers.lead_time,
         )  # fmt: skip
+
+    def _lean(self) -> Floats:
+        """
+        Return the correlation of x and y (T,) in the gates.
+
+        It is that of track and plot together now, which is how the last gate lay too: what makes
+        gates long, the azimuth noise of the radar, changes little from look to look.
+        """
+        bodies = to_bodies(self.tracker.tracks, self.tracker.config.output)
+        noise = self.tracker.plot_noise(bodies.state[:, :3])
+        total = bodies.covariance[:, :2, :2] + noise[:, :2, :2]
+        with np.errstate(invalid='ignore'):
+            lean = total[:, 0, 1] / np.sqrt(total[:, 0, 0] * total[:, 1, 1])
+        return np.clip(np.nan_to_num(lean), -1.0, 1.0)

@@ -46,6 +46,7 @@ class RadarTracker:
         self._is_known = False  # which radar it is
         self._farthest = 0.0  # plot so far [m]
         self._collected: Plots | None = None
+        self._last_coverage = Coverage(0.0, 0.0)
         self._tracker = Tracker(build_setup(self.config, self._radar))
         self._tracker.reset(next_id)
 
@@ -84,6 +85,10 @@ class RadarTracker:
     def dimensions(self) -> int:
         """2 or 3, as configured or as the first plots told."""
         return self._radar.dimensions
+
+    def plot_noise(self, position: Floats) -> Floats:
+        """Return the covariance (K, d, d) [m^2] of a plot at each of these places (K, 3) [m]."""
+        return self._radar.noise(position[:, : self.dimensions], self._last_coverage)
 
     def reset(self) -> None:
         """Forget all but the next id, as after a restart."""
@@ -133,7 +138,7 @@ class RadarTracker:
             return self.tracks
         pose = pose_at(platform, collected.time)
         sweep = self._antenna.follow(collected, self._azimuth(collected))
-        coverage = self._coverage(sweep, platform)
+        coverage = self._last_coverage = self._coverage(sweep, platform)
         volume = self._radar.plot_space_volume(self._farthest or self.config.sensor.range_max)
         return self._tracker.step(self._radar.measure(collected, pose, coverage, volume))
 

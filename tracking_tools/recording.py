@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import struct
 import time
+from typing import Any
 
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import PointCloud2
@@ -58,6 +59,16 @@ class Player:
         self._plots = peer.tell(PointCloud2, plots)
         self._tracks = peer.hear(PointCloud2, tracks, self._answers, raw=True)
         self._own_ship = peer.tell(Odometry, own_ship) if own_ship else None
+
+    def watch(self, kind: Any, topic: str) -> list[Any]:
+        """Return a list that grows by every message of another topic."""
+        seen: list[Any] = []
+        self._peer.hear(kind, topic, seen)
+        return seen
+
+    def wait_for(self, is_done: Callable[[], object], what: str) -> None:
+        """Wait until something holds, as long as for an answer."""
+        self._peer.spin_until(is_done, what, ANSWER)
 
     def find_tracker(self) -> None:
         """Wait until the tracker and we know each other."""

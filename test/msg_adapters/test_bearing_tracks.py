@@ -142,7 +142,21 @@ def test_fan_begins_at_the_sensor_and_is_as_wide_as_the_bearing_is_unsure(types)
     assert 2.0 * np.arctan2(fan.pose.orientation.z, fan.pose.orientation.w) == pytest.approx(0.5)
     assert fan.scale.x == pytest.approx(1e4)
     assert fan.scale.y == pytest.approx(1e4 * np.tan(0.03))
-    assert [(p.x, abs(p.y)) for p in fan.points] == [(0.0, 0.0), (1.0, 1.0), (1.0, 1.0)]
+    corners = np.array([[p.x, p.y] for p in fan.points]).reshape(-1, 3, 2)
+    assert not corners[:, 0].any()
+    ends = corners[:, 1:].reshape(-1, 2) * [fan.scale.x, fan.scale.y]
+    np.testing.assert_allclose(np.hypot(*ends.T), 1e4)  # an arc
+    angle = np.arctan2(ends[:, 1], ends[:, 0])
+    assert [angle.min(), angle.max()] == pytest.approx([-0.03, 0.03])
+    assert np.all(angle[2::2] == angle[1:-1:2])  # without gaps
+
+
+def test_fan_fades_outwards(types):
+    """How far the contact is, nobody knows; viewers multiply the two opacities."""
+    fan = drawn(types, tracks_of(1), [False])['fan', 1]
+    assert fan.color.a == 1.0
+    assert len(fan.colors) == len(fan.points)
+    assert fan.colors[0].a > fan.colors[1].a == fan.colors[2].a > 0.0
 
 
 def test_second_fan_is_the_mirror_image_in_the_axis_and_fainter(types):
@@ -152,7 +166,7 @@ def test_second_fan_is_the_mirror_image_in_the_axis_and_fainter(types):
     mirror = markers['mirror', 1]
     turn = 2.0 * np.arctan2(mirror.pose.orientation.z, mirror.pose.orientation.w)
     assert turn == pytest.approx(np.pi - 0.5)
-    assert mirror.color.a < markers['fan', 1].color.a
+    assert mirror.colors[0].a < markers['fan', 1].colors[0].a
 
 
 def test_position_is_drawn_where_it_is_known_and_taken_away_with_it(types):

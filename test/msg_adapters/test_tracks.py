@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tracks become rows with documented columns, odometry and drawings."""
+"""Tracks become rows with documented columns, and odometry."""
 
 from dataclasses import replace
 
@@ -10,9 +10,8 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from msg_adapters import message_types
-from msg_adapters.markers import NAMESPACES, to_markers
+from msg_adapters.markers import to_markers
 from msg_adapters.odometry import to_odometry
-from msg_adapters.shapes import erase_all
 from msg_adapters.track_rows import chi_square_bound
 from msg_adapters.tracks import from_tracks, kinematics, to_bodies, to_track_columns
 from msg_adapters.trails import Trails
@@ -136,67 +135,14 @@ def test_odd_numbers_can_be_sent(make_tracks, value):
         gate_volume=np.full(2, value), existence_probability=np.full(2, value),
     )  # fmt: skip
     header = types.header(100.0, 'map')
+    drawing = {'lean': np.full(2, value), 'output': 'mmse', 'lead_time': 10.0}
     with np.errstate(all='ignore'):
         messages = [
             from_tracks(tracks, tracks, header, types, **OPTIONS),
             *to_odometry(to_bodies(tracks, 'map'), 'map', types),
-            *draw(tracks, types),
+            to_markers(tracks, Trails.empty(5), {1, 3}, header, types, **drawing),
         ]
     assert all(serialization.serialize_message(message) for message in messages)
-
-
-def draw(tracks, types, shown=frozenset()):
-    """Return the markers of the tracks, after two scans."""
-    position = kinematics(tracks, 'mmse')[0][:, :3]
-    trails = Trails.empty(5).extend(tracks.id, position).extend(tracks.id, position + 1.0)
-    header = types.header(1.0, 'map')
-    return to_markers(
-        tracks, trails, set(shown), header, types, output='mmse', lead_time=10.0
-    ).markers
-
-
-@pytest.mark.parametrize('dimensions', [2, 3])
-def test_every_track_is_drawn_in_its_own_colour(types, make_tracks, dimensions):
-    """Five shapes each; the hue belongs to the id, whoever else is there."""
-    markers = draw(make_tracks([1, 2], dimensions), types)
-    assert {(m.ns, m.id) for m in markers} == {(ns, i) for ns in NAMESPACES for i in (1, 2)}
-    hue = {(m.color.r, m.color.g) for m in markers if m.id == 1}
-    assert len(hue) == 1
-    alone = draw(make_tracks([1], dimensions), types)
-    assert {(m.color.r, m.color.g) for m in alone} == hue
-
-
-def test_covariance_ellipse_has_three_sigma_half_axes(types, make_tracks):
-    """The axes of the shape are six roots of the eigenvalues, along their vectors."""
-    tracks = make_tracks([1])
-    _, covariance = kinematics(tracks, 'mmse')
-    (ellipse,) = (m for m in draw(tracks, types) if m.ns == 'covariance')
-    q, scale = ellipse.pose.orientation, ellipse.scale
-    axis = Rotation.from_quat([q.x, q.y, q.z, q.w]).apply([1.0, 0.0, 0.0])[:2]
-    variance = axis @ covariance[0, :2, :2] @ axis
-    np.testing.assert_allclose(scale.x, 6.0 * np.sqrt(variance))
-    np.testing.assert_allclose(
-        scale.x * scale.y, 36.0 * np.sqrt(np.linalg.det(covariance[0, :2, :2]))
-    )
-
-
-def test_arrow_points_along_the_velocity(types, make_tracks):
-    """Turned by its pose, the x axis is the velocity, climb included."""
-    tracks = make_tracks([1])
-    velocity = kinematics(tracks, 'mmse')[0][0, 3:]
-    (arrow,) = (m for m in draw(tracks, types) if m.ns == 'velocity')
-    q = arrow.pose.orientation
-    ahead = Rotation.from_quat([q.x, q.y, q.z, q.w]).apply([arrow.scale.x, 0.0, 0.0])
-    np.testing.assert_allclose(ahead, 10.0 * velocity)
-
-
-def test_markers_of_deleted_tracks_are_deleted(types, make_tracks):
-    """What was shown and is gone is taken off the screen, shape by shape."""
-    markers = draw(make_tracks([2]), types, shown={1, 2})
-    deleted = [m for m in markers if m.action == types.Marker.DELETE]
-    assert {(m.ns, m.id) for m in deleted} == {(ns, 1) for ns in NAMESPACES}
-    (everything,) = erase_all(types.header(0.0, 'map'), types).markers
-    assert everything.action == types.Marker.DELETEALL
 
 
 def test_trails_follow_their_track_when_rows_move():

@@ -88,5 +88,5 @@ def test_fans_show_what_an_array_cannot_tell(start_node, probe, array):
     assert 0.0 < fan.scale.y < 300.0
     if array == 'linear':
         other = next(m for m in drawings[-1].markers if (m.ns, m.id) == ('mirror', fan.id))
-        assert other.color.a < fan.color.a
+        assert other.colors[0].a < fan.colors[0].a
         assert other.pose.orientation.z == pytest.approx(-fan.pose.orientation.z)
