@@ -37,6 +37,8 @@ setup(
         (SHARE, ['package.xml']),
         (f'{SHARE}/launch', sorted(glob('launch/*.launch.py'))),
         (f'{SHARE}/config', sorted(glob('config/*.yaml'))),
+        (f'{SHARE}/rviz', sorted(glob('rviz/*.rviz'))),
+        (f'{SHARE}/foxglove', sorted(glob('foxglove/*.json'))),
     ],
     install_requires=['setuptools', 'numpy>=1.26', 'scipy>=1.11'],
     extras_require={

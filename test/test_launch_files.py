@@ -68,23 +68,49 @@ class ParameterValue:
     value_type: type = field(kw_only=True)
 
 
+@dataclass(frozen=True)
+class IfCondition:
+    """Whether something is done."""
+
+    predicate_expression: Any
+
+
+@dataclass(frozen=True)
+class Shutdown:
+    """The end of everything that was launched."""
+
+    reason: str = field(kw_only=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExecuteProcess:
+    """Any program."""
+
+    cmd: list[Any]
+    output: str
+    condition: IfCondition | None = None
+    on_exit: Any = None
+
+
 @dataclass(frozen=True, kw_only=True)
 class Node:
     """A node in a process of its own."""
 
     package: str
-    executable: str
-    name: str
-    namespace: Any
+    executable: Any
+    name: Any
+    namespace: Any = ''
     output: str
     parameters: list[Any]
-    remappings: list[tuple[str, Any]]
+    remappings: list[tuple[str, Any]] = field(default_factory=list)
     arguments: list[Any]
+    condition: IfCondition | None = None
 
 
 STAND_IN = {
     'launch': (LaunchDescription,),
-    'launch.actions': (DeclareLaunchArgument,),
+    'launch.actions': (DeclareLaunchArgument, ExecuteProcess, Shutdown),
+    'launch.conditions': (IfCondition,),
     'launch.substitutions': (LaunchConfiguration, PathJoinSubstitution),
     'launch_ros': (),
     'launch_ros.actions': (Node,),
@@ -96,18 +122,43 @@ STAND_IN = {
 @pytest.fixture(params=LAUNCH_FILES, ids=lambda path: path.name)
 def entities(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """Load one launch file and list what it describes."""
+    return _load(request.param, monkeypatch)
+
+
+def _load(path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     for name, classes in STAND_IN.items():
         module = ModuleType(name)
         for each in classes:
             setattr(module, each.__name__, each)
         monkeypatch.setitem(sys.modules, name, module)
-    description = runpy.run_path(str(request.param))['generate_launch_description']()
+    description = runpy.run_path(str(path))['generate_launch_description']()
     assert isinstance(description, LaunchDescription)
     return description.entities
 
 
 def _only(kind: type, entities: list[Any]) -> list[Any]:
     return [entity for entity in entities if isinstance(entity, kind)]
+
+
+def _trackers(entities: list[Any]) -> list[Any]:
+    return [node for node in _only(Node, entities) if node.package == 'contact_tracking']
+
+
+def _text(value: Any, given: dict[str, Any]) -> str:
+    """Put a substitution together, with these values of the arguments."""
+    if isinstance(value, LaunchConfiguration):
+        return _text(given[value.variable_name], given)
+    if isinstance(value, PathJoinSubstitution):
+        return '/'.join(_text(part, given) for part in value.substitutions)
+    if isinstance(value, FindPackageShare):
+        return f'share/{value.package}'
+    return value if isinstance(value, str) else ''.join(_text(part, given) for part in value)
+
+
+def _values(entities: list[Any], **given: str) -> dict[str, Any]:
+    """Return the values of all arguments, defaults where none is given."""
+    declared = _only(DeclareLaunchArgument, entities)
+    return {argument.name: argument.default_value for argument in declared} | given
 
 
 def _parts(value: Any) -> Iterator[Any]:
@@ -127,16 +178,18 @@ def test_there_are_launch_files() -> None:
     assert LAUNCH_FILES
 
 
+@pytest.mark.parametrize('sensor', ['radar', 'sonar'])
 def test_node_is_an_installed_command(
-    entities: list[Any], setup_arguments: dict[str, Any]
+    entities: list[Any], setup_arguments: dict[str, Any], sensor: str
 ) -> None:
     """Package and executable are names that ros2 launch can find."""
     scripts = setup_arguments['entry_points']['console_scripts']
     commands = {re.split(' *=', script)[0] for script in scripts}
-    nodes = _only(Node, entities)
+    nodes = _trackers(entities)
     assert nodes
-    assert {node.package for node in nodes} == {setup_arguments['name']}
-    assert {node.executable for node in nodes} <= commands
+    given = _values(entities, sensor=sensor)
+    assert {_text(node.executable, given) for node in nodes} <= commands
+    assert all(_text(node.name, given) == _text(node.executable, given) for node in nodes)
 
 
 def test_arguments_are_declared_and_used(entities: list[Any]) -> None:
@@ -150,32 +203,28 @@ def test_arguments_are_declared_and_used(entities: list[Any]) -> None:
 
 
 def test_topics_keep_their_names_by_default(entities: list[Any]) -> None:
-    """A remapping changes nothing until its argument is given."""
-    defaults = {
-        argument.name: argument.default_value
-        for argument in _only(DeclareLaunchArgument, entities)
-    }
-    for node in _only(Node, entities):
+    """A remapping changes nothing until its argument is given; those of a bag are absolute."""
+    given = _values(entities)
+    for node in _trackers(entities):
         assert {topic for topic, _ in node.remappings} >= {'ownship'}
-        assert all(defaults[new.variable_name] == topic for topic, new in node.remappings)
+        assert all(_text(new, given).lstrip('/') == topic for topic, new in node.remappings)
 
 
-def test_parameter_file_is_shipped(entities: list[Any], setup_arguments: dict[str, Any]) -> None:
-    """The default parameter file is one that setup.py installs."""
-    (default,) = [
-        argument.default_value
-        for argument in _only(DeclareLaunchArgument, entities)
-        if argument.name == 'params_file'
-    ]
-    share, *path = default.substitutions
-    assert share == FindPackageShare(setup_arguments['name'])
-    shipped = dict(setup_arguments['data_files'])[f'share/{share.package}/{path[0]}']
-    assert '/'.join(path) in shipped
+@pytest.mark.parametrize('sensor', ['radar', 'sonar'])
+def test_default_files_are_shipped(
+    entities: list[Any], setup_arguments: dict[str, Any], sensor: str
+) -> None:
+    """Parameter file and RViz configuration are those that setup.py installs."""
+    given = _values(entities, sensor=sensor)
+    for name in {'params_file', 'rviz_config'} & given.keys():
+        folder, _, file = _text(given[name], given).rpartition('/')
+        shipped = dict(setup_arguments['data_files'])[folder]
+        assert file in {Path(path).name for path in shipped}
 
 
 def test_switches_arrive_as_booleans(entities: list[Any]) -> None:
     """Launch arguments are text; the node declares these two as booleans."""
-    for node in _only(Node, entities):
+    for node in _trackers(entities):
         values = {
             name: each for part in _only(dict, node.parameters) for name, each in part.items()
         }
@@ -183,3 +232,29 @@ def test_switches_arrive_as_booleans(entities: list[Any]) -> None:
             name: ParameterValue(LaunchConfiguration(name), value_type=bool)
             for name in ('use_sim_time', 'autostart')
         }
+
+
+def test_replay_plays_and_records_until_the_bag_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The player has the clock, ends everything, and the recorder has the tracks of the node."""
+    entities = _load(ROOT / 'launch' / 'replay.launch.py', monkeypatch)
+    given = _values(entities, sensor='sonar', bag='/data/patrol', output='/tmp/out', rate='4')
+    record, play = (
+        [_text(word, given) for word in process.cmd] for process in _only(ExecuteProcess, entities)
+    )
+    assert play[:4] == ['ros2', 'bag', 'play', '/data/patrol']
+    assert {'--clock', '--delay'} <= set(play)
+    assert play[play.index('--rate') + 1] == '4'
+    assert record[record.index('--output') + 1] == '/tmp/out'
+    wanted = re.compile(record[record.index('--regex') + 1])
+    assert wanted.fullmatch('/boat/sonar_tracker/tracks')
+    assert not wanted.fullmatch('/radar_tracker/tracks')
+    ends = [process.on_exit for process in _only(ExecuteProcess, entities)]
+    assert ends == [None, Shutdown(reason='the bag is over')]
+
+
+def test_replay_starts_rviz_only_when_wanted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A machine without a display replays too."""
+    entities = _load(ROOT / 'launch' / 'replay.launch.py', monkeypatch)
+    (viewer,) = (node for node in _only(Node, entities) if node.package == 'rviz2')
+    assert viewer.condition == IfCondition(LaunchConfiguration('rviz'))
+    assert _values(entities)['rviz'] == 'false'

@@ -22,6 +22,7 @@ HEADER = ['# Copyright 2026 the contact_tracking authors', '# SPDX-License-Ident
 LONG_FILES = {'tracking_core/batches.py': 'the glossary: every batch in one place'}
 NOT_IN_ROSDEP = {'setuptools', 'rosbags'}  # part of Python there; has a pip key only
 IMPORT_NAMES = {'pyyaml': 'yaml'}
+SHARED = {'launch', 'config', 'rviz', 'foxglove'}
 LAUNCH = {'launch', 'launch_ros'}  # no wheels: present on a ROS machine only
 
 
@@ -137,19 +138,19 @@ def test_console_scripts_can_be_imported(setup_arguments: dict[str, Any]) -> Non
 
 
 def test_share_files_are_installed(setup_arguments: dict[str, Any]) -> None:
-    """ROS finds the marker, the manifest, and every launch and parameter file."""
+    """ROS finds the marker, the manifest, and every launch, parameter and view file."""
     installed = {
         f'{folder}/{Path(file).name}': Path(file)
         for folder, files in setup_arguments['data_files']
         for file in files
     }
-    shared = [path.relative_to(ROOT) for top in ('launch', 'config') for path in _files(top)]
+    shared = [path.relative_to(ROOT) for top in SHARED for path in _files(top)]
     assert installed == {
         f'share/ament_index/resource_index/packages/{NAME}': Path('resource', NAME),
         f'share/{NAME}/package.xml': Path('package.xml'),
         **{f'share/{NAME}/{path}': path for path in shared},
     }
-    assert {'launch', 'config'} <= {path.parts[0] for path in shared}
+    assert {path.parts[0] for path in shared} == SHARED
 
 
 def _files(top: str) -> list[Path]:
