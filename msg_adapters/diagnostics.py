@@ -46,6 +46,10 @@ class InputCount:
             self.lost += max(number - self._number - 1, 0)
         self._number = number
 
+    def ignored(self, number: int | None) -> None:
+        """Take note of a message that nobody wanted, so that it does not count as lost."""
+        self._number = number
+
     def values(self, topic: str) -> dict[str, object]:
         """Return all counts under names that begin with the topic."""
         counts = {

@@ -6,7 +6,7 @@ The radar tracker as a ROS node.
 Subscribes to `plots` (PointCloud2), `ownship` (Odometry), `acquire` (PointStamped) and `cancel`
 (UInt32); publishes `~/tracks` (PointCloud2), `~/odometry` (Odometry), `~/markers` (MarkerArray)
 and `/diagnostics`; serves `~/reset` (Trigger). Parameters are those of ``config.py`` and
-``node_config.py``.
+``node_config.py``. What it is made of is in ``live.py``.
 """
 
 from __future__ import annotations
@@ -14,22 +14,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 import sys
 
-from msg_adapters.live.node import TrackerNode
-from msg_adapters.node import run
-from radar_tracker.config import RadarTrackerConfig
-from radar_tracker.node_config import radar_node_config
-from radar_tracker.session import radar_session
-
-
-def make_node() -> TrackerNode:
-    """Return the node, ready to spin."""
-    configs = (RadarTrackerConfig(), radar_node_config())
-    return TrackerNode('radar_tracker', configs, radar_session)
+from msg_adapters.start import start
 
 
 def main(args: Sequence[str] | None = None) -> int:
     """Run the radar node; return its exit code."""
-    return run(make_node, args)
+    return start('radar_tracker.live', args)
 
 
 if __name__ == '__main__':

@@ -15,6 +15,7 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 
 from msg_adapters.kinds.menu import available
 from msg_adapters.live.topics import LiveTopics, MakeSession
+from msg_adapters.live.transitions import refuse_wrong_transitions, reported
 from msg_adapters.node import NotStarted
 from msg_adapters.parameters import Configs, NodeParameters
 
@@ -41,6 +42,7 @@ class TrackerNode(LifecycleNode):
 
     def __init__(self, name: str, configs: Configs, make_session: MakeSession) -> None:
         super().__init__(name)
+        refuse_wrong_transitions(self)
         self._make_session = make_session
         self._live: LiveTopics | None = None
         self._settings = NodeParameters(self, configs, self._reconfigure)
@@ -65,6 +67,7 @@ class TrackerNode(LifecycleNode):
         if self._live is not None:
             self._live.reconfigure(configs)
 
+    @reported
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Make the tracker and open all topics."""
         try:
@@ -75,29 +78,39 @@ class TrackerNode(LifecycleNode):
             return TransitionCallbackReturn.FAILURE
         return super().on_configure(state)
 
+    @reported
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Begin to track."""
         if self._live is not None:
             self._live.activate()
         return super().on_activate(state)
 
+    @reported
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Stop listening; tracks are kept."""
         if self._live is not None:
             self._live.deactivate()
         return super().on_deactivate(state)
 
+    @reported
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Forget everything."""
         self._close()
         return super().on_cleanup(state)
 
+    @reported
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Forget everything, for good."""
         self._close()
         return super().on_shutdown(state)
 
+    @reported
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Forget everything after a step that failed, and be as before it was configured."""
+        self._close()
+        return super().on_error(state)
+
     def _close(self) -> None:
-        if self._live is not None:
-            self._live.close()
-            self._live = None
+        live, self._live = self._live, None
+        if live is not None:
+            live.close()

@@ -20,16 +20,9 @@ from msg_adapters.diagnostics import to_diagnostics
 from msg_adapters.kinds.menu import message_class
 from msg_adapters.live.display import Display
 from msg_adapters.live.health import Health, QUIET
+from msg_adapters.live.openings import Openings
 from msg_adapters.message_types import rclpy_types, seconds
-from msg_adapters.node import (
-    advertise,
-    arrival_time,
-    explain_silence,
-    NANOSECONDS,
-    on_clock_going_back,
-    steady_timer,
-    subscribe,
-)
+from msg_adapters.node import arrival_time, explain_silence, NANOSECONDS
 from msg_adapters.odometry import to_odometry
 from msg_adapters.session import Session
 
@@ -56,36 +49,38 @@ class LiveTopics:
 
     def __init__(self, node: Any, make_session: MakeSession, configs: Configs) -> None:
         self._node, self._node_config = node, configs[1]
-        self._types, input_class = rclpy_types(), message_class(configs[1].input_type)
+        self._types = rclpy_types()
         self._session = make_session(*configs, self._types, node.get_logger())
         self._topic = self._session.instrument.topic
         self._display = Display(self._types)
         self._health = Health(time.monotonic())
         self._level, self._is_active, self._is_heard, self._is_late = '', False, False, False
+        self._openings = Openings(node)
+        try:
+            self._open(self._openings, message_class(configs[1].input_type))
+        except Exception:
+            self._openings.close()
+            raise
+
+    def _open(self, openings: Openings, input_class: Any) -> None:
+        hear, tell = openings.hear, openings.tell
         self._inputs = {  # of two that are there, the executor takes the first
-            'ownship': subscribe(node, Odometry, 'ownship', self._on_ownship),
-            self._topic: subscribe(node, input_class, self._topic, self._on_plots),
-            'acquire': subscribe(node, PointStamped, 'acquire', self._on_acquire),
-            'cancel': subscribe(node, UInt32, 'cancel', self._on_cancel),
+            'ownship': hear(Odometry, 'ownship', self._on_ownship),
+            self._topic: hear(input_class, self._topic, self._on_plots),
+            'acquire': hear(PointStamped, 'acquire', self._on_acquire),
+            'cancel': hear(UInt32, 'cancel', self._on_cancel),
         }
-        self._tracks = advertise(node, PointCloud2, '~/tracks')
-        self._odometry = advertise(node, Odometry, '~/odometry')
-        self._markers = advertise(node, MarkerArray, '~/markers')
-        self._diagnostics = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
-        self._reset = node.create_service(Trigger, '~/reset', self._on_reset)
-        self._timer = steady_timer(node, 1.0, self._tick)
-        self._jumps = on_clock_going_back(node, self._session.guard.clock_moved)
+        self._tracks = tell(PointCloud2, '~/tracks')
+        self._odometry = tell(Odometry, '~/odometry')
+        self._markers = tell(MarkerArray, '~/markers')
+        self._diagnostics = openings.tell_always(DiagnosticArray, '/diagnostics')
+        openings.serve(Trigger, '~/reset', self._on_reset)
+        openings.every(1.0, self._tick)
+        openings.when_clock_goes_back(self._session.guard.clock_moved)
 
     def close(self) -> None:
         """Give all topics back."""
-        self._jumps.unregister()
-        self._node.destroy_timer(self._timer)
-        self._node.destroy_service(self._reset)
-        self._node.destroy_publisher(self._diagnostics)
-        for publisher in (self._tracks, self._odometry, self._markers):
-            self._node.destroy_lifecycle_publisher(publisher)
-        for subscription in self._inputs.values():
-            self._node.destroy_subscription(subscription)
+        self._openings.close()
 
     def activate(self) -> None:
         """Begin to track."""
@@ -104,10 +99,10 @@ class LiveTopics:
         self._session.instrument.tracker.reconfigure(config)
 
     def _on_plots(self, msg: Any, info: Any) -> None:
+        self._count(self._topic, info)
         if not self._is_active:
             return
         begun = time.perf_counter()
-        self._count(self._topic, info)
         self._health.plots_at, self._is_heard = time.monotonic(), True
         self._compare_clocks(msg)
         table = self._session.plots(msg, arrival_time(self._node))
@@ -135,8 +130,8 @@ class LiveTopics:
             self._markers.publish(self._display.draw(self._session, now, markers))
 
     def _on_ownship(self, msg: Any, info: Any) -> None:
+        self._count('ownship', info)
         if self._is_active:
-            self._count('ownship', info)
             self._health.ownship_at = time.monotonic()
             self._session.ownship(msg, arrival_time(self._node))
 
@@ -157,7 +152,11 @@ class LiveTopics:
     def _count(self, topic: str, info: Any) -> None:
         number = info.get('publication_sequence_number')
         publishers = self._inputs[topic].get_publisher_count()
-        self._session.counts[topic].received(number, publishers)
+        count = self._session.counts[topic]
+        if self._is_active:
+            count.received(number, publishers)
+        else:
+            count.ignored(number)
 
     def _compare_clocks(self, msg: Any) -> None:
         """Say once when stamps and clock have nothing to do with each other."""

@@ -3,8 +3,6 @@
 """The radar node as a process: tracks come out, whatever goes in."""
 
 from geometry_msgs.msg import PointStamped
-from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
 from nav_msgs.msg import Odometry
 import numpy as np
 from std_msgs.msg import UInt32
@@ -89,23 +87,3 @@ def test_acquire_starts_a_track_at_the_point(start_node, probe):
     after = probe.scan()
     new = ~np.isin(after['id'], before['id'])
     assert np.hypot(after['x'][new] - 40e3, after['y'][new] - 40e3).min() < 1e3
-
-
-def test_lifecycle_cycle_keeps_silent_while_inactive(start_node, probe):
-    """Without autostart nothing is said until activated; a full cycle ends in fresh tracks."""
-    start_node('autostart:=false')
-
-    def change(number: int) -> None:
-        request = ChangeState.Request(transition=Transition(id=number))
-        assert probe.call(ChangeState, 'radar_tracker/change_state', request).success
-
-    for _ in range(2):
-        change(Transition.TRANSITION_CONFIGURE)
-        change(Transition.TRANSITION_ACTIVATE)
-        probe.meet()
-        assert set(probe.confirmed()['hits']) <= set(range(13))
-        change(Transition.TRANSITION_DEACTIVATE)
-        heard = len(probe.tables)
-        change(Transition.TRANSITION_CLEANUP)
-        assert len(probe.tables) == heard
-    change(Transition.TRANSITION_UNCONFIGURED_SHUTDOWN)

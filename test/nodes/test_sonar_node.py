@@ -3,8 +3,6 @@
 """The sonar node as a process: twenty contacts are followed, whatever comes between."""
 
 from geometry_msgs.msg import PointStamped
-from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
 import numpy as np
 import pytest
 from std_msgs.msg import UInt32
@@ -141,21 +139,3 @@ def test_acquire_cancel_and_reset(node, probe):
     assert probe.call(Trigger, 'sonar_tracker/reset', Trigger.Request()).success
     table = probe.scan()
     assert set(table['id'][table['status'] == 2].tolist()) >= before
-
-
-def test_lifecycle_cycle_ends_in_fresh_tracks(start_node, probe):
-    """Without autostart nothing is said until activated."""
-    start_node('autostart:=false', *PARAMETERS)
-
-    def change(number: int) -> None:
-        request = ChangeState.Request(transition=Transition(id=number))
-        assert probe.call(ChangeState, 'sonar_tracker/change_state', request).success
-
-    for _ in range(2):
-        change(Transition.TRANSITION_CONFIGURE)
-        change(Transition.TRANSITION_ACTIVATE)
-        probe.meet()
-        assert probe.confirmed()['hits'].max() <= 13
-        change(Transition.TRANSITION_DEACTIVATE)
-        change(Transition.TRANSITION_CLEANUP)
-    change(Transition.TRANSITION_UNCONFIGURED_SHUTDOWN)

@@ -1,8 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""A node starts with what it can use, refuses the rest by name, and stops without protest."""
-
-import signal
+"""A node starts with what it can use, and refuses the rest by name."""
 
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
@@ -16,26 +14,6 @@ def sensor(request):
 
 
 radar_only = pytest.mark.parametrize('sensor', ['radar'], indirect=True)
-
-
-@pytest.mark.parametrize(
-    'signals',
-    [
-        [signal.SIGINT],
-        [signal.SIGTERM],
-        [signal.SIGINT, signal.SIGINT],
-        [signal.SIGINT, signal.SIGTERM],
-    ],
-    ids=['int', 'term', 'int-int', 'int-term'],
-)
-def test_signals_end_the_node_with_zero_and_no_traceback(start_node, probe, signals):
-    """However often a user or a launch file insists, the exit is clean."""
-    node = start_node()
-    probe.meet()
-    for number in signals:
-        node.signal(number)
-    assert node.wait() == 0
-    assert 'Traceback' not in node.log
 
 
 @radar_only

@@ -56,7 +56,7 @@ class TrackerProbe:
         namespace: str = '',
         check: Callable[[], object] | None = None,
     ) -> None:
-        self.sensor = sensor
+        self.sensor, self.domain_id = sensor, domain_id
         self.peer = peer = Peer(domain_id, 'probe', namespace, *([check] if check else []))
         # What it can do as any peer.
         self.node, self.tell, self.hear = peer.node, peer.tell, peer.hear
