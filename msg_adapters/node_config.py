@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from msg_adapters.kinds.menu import check_type, POINT_CLOUD, TYPES
+from msg_adapters.radar_tracks import NAME as RADAR_TRACKS
 from tracking_core.config import parameter, validate
 
 
@@ -55,6 +56,10 @@ class NodeConfig:
     input_type: str = parameter(
         POINT_CLOUD, unit='', doc=f'message type of the plots or bearings: {", ".join(TYPES)}'
     )
+    output_type: str = parameter(
+        '', unit='', choices=('', RADAR_TRACKS),
+        doc='message type in which contacts are published once more; empty: none',
+    )  # fmt: skip
     time_jump_threshold: float = parameter(
         10.0, unit='s', doc='a stamp further off is refused until several in a row agree',
         low=0.01, high=1e6,

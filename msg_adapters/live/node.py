@@ -18,6 +18,7 @@ from msg_adapters.live.topics import LiveTopics, MakeSession
 from msg_adapters.live.transitions import refuse_wrong_transitions, reported
 from msg_adapters.node import NotStarted
 from msg_adapters.parameters import Configs, NodeParameters
+from msg_adapters.radar_tracks import available as outputs
 
 
 class TrackerNode(LifecycleNode):
@@ -26,7 +27,8 @@ class TrackerNode(LifecycleNode):
 
     Subscribes to the sensor's topic (PointCloud2 or another `input_type`), `ownship` (Odometry),
     `acquire` (PointStamped) and `cancel` (UInt32); publishes `~/tracks` (PointCloud2),
-    `~/odometry` (Odometry), `~/markers` (MarkerArray) and `/diagnostics`;
+    `~/odometry` (Odometry), `~/markers` (MarkerArray), `~/radar_tracks` (RadarTracks, if
+    `output_type` says so) and `/diagnostics`;
     serves `~/reset` (Trigger).
 
     Parameters
@@ -47,15 +49,18 @@ class TrackerNode(LifecycleNode):
         self._live: LiveTopics | None = None
         self._settings = NodeParameters(self, configs, self._reconfigure)
         self._settings.tell()
-        self.declare_parameter(
-            'input_types_available', available(), ignore_override=True,
-            descriptor=ParameterDescriptor(
-                description='what input_type can be here', read_only=True
-            ),
-        )  # fmt: skip
+        self._tell('input_types_available', available(), 'what input_type can be here')
+        self._tell('output_types_available', outputs(), 'what output_type can be here')
         _, node_config = self._settings.configs
         if node_config.autostart:
             self._start()
+
+    def _tell(self, name: str, values: list[str], what: str) -> None:
+        """Declare a parameter that only says something."""
+        self.declare_parameter(
+            name, values or ['none'], ignore_override=True,
+            descriptor=ParameterDescriptor(description=what, read_only=True),
+        )  # fmt: skip
 
     def _start(self) -> None:
         steps: tuple[Any, ...] = (self.trigger_configure, self.trigger_activate)

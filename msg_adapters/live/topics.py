@@ -18,12 +18,12 @@ from visualization_msgs.msg import MarkerArray
 
 from msg_adapters.diagnostics import to_diagnostics
 from msg_adapters.kinds.menu import message_class
+from msg_adapters.live.bodies import BodyTopics
 from msg_adapters.live.display import Display
 from msg_adapters.live.health import Health, QUIET
 from msg_adapters.live.openings import Openings
 from msg_adapters.message_types import rclpy_types, seconds
 from msg_adapters.node import arrival_time, explain_silence, NANOSECONDS
-from msg_adapters.odometry import to_odometry
 from msg_adapters.session import Session
 
 Configs = tuple[Any, ...]
@@ -71,7 +71,7 @@ class LiveTopics:
             'cancel': hear(UInt32, 'cancel', self._on_cancel),
         }
         self._tracks = tell(PointCloud2, '~/tracks')
-        self._odometry = tell(Odometry, '~/odometry')
+        self._bodies = BodyTopics(openings, self._node_config.output_type, self._types)
         self._markers = tell(MarkerArray, '~/markers')
         self._diagnostics = openings.tell_always(DiagnosticArray, '/diagnostics')
         openings.serve(Trigger, '~/reset', self._on_reset)
@@ -115,12 +115,9 @@ class LiveTopics:
 
     def _show(self) -> None:
         """Publish what is for eyes and other tools, while somebody subscribes."""
-        instrument, frame = self._session.instrument, self._session.frame.name
-        instrument.follow()
+        self._session.instrument.follow()
         self._display.is_behind = True
-        if self._odometry.get_subscription_count():
-            for msg in to_odometry(instrument.to_bodies(), frame, self._types):
-                self._odometry.publish(msg)
+        self._bodies.publish(self._session.instrument, self._session.header())
         self._draw()
 
     def _draw(self) -> None:

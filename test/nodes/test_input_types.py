@@ -57,9 +57,10 @@ def test_radar_node_tracks_the_positions_of_a_pose_array(start_node, probe):
     """A parameter is all that it takes."""
     start_node('input_type:=geometry_msgs/PoseArray')
     plots = first_publisher(probe, pose_array)
-    request = GetParameters.Request(names=['input_types_available'])
+    request = GetParameters.Request(names=['input_types_available', 'output_types_available'])
     told = probe.call(GetParameters, '/radar_tracker/get_parameters', request)
     assert 'geometry_msgs/PoseArray' in told.values[0].string_array_value
+    assert told.values[1].string_array_value == ['none']  # radar_msgs has no wheel
     for step in range(10):
         table = answer(probe, plots, pose_array(100.0 + 4.0 * step))
     (row,) = np.flatnonzero(table['status'] == 1)
@@ -78,16 +79,21 @@ def test_sonar_node_tracks_the_yaw_of_a_pose(start_node, probe):
 
 
 @pytest.mark.parametrize(
-    ('kind', 'words'),
+    ('type_', 'words'),
     [
-        ('radar_msgs/RadarScan', 'needs the package radar_msgs, which is not installed'),
-        ('marine_sensor_msgs/RadarSector', 'raw echoes, not plots: a plot extractor'),
-        ('std_msgs/String', "'std_msgs/String' cannot be read, one of: sensor_msgs/PointCloud2"),
+        (
+            'input_type:=radar_msgs/RadarScan',
+            'needs the package radar_msgs, which is not installed',
+        ),
+        ('input_type:=marine_sensor_msgs/RadarSector', 'raw echoes, not plots: a plot extractor'),
+        ('input_type:=std_msgs/String', "'std_msgs/String' cannot be read, one of: sensor_msgs/P"),
+        ('output_type:=radar_msgs/RadarTracks', 'needs the package radar_msgs, which is not'),
+        ('output_type:=std_msgs/String', 'output_type must be one of , radar_msgs/RadarTracks'),
     ],
 )
-def test_type_that_cannot_be_read_ends_the_node_with_a_word(start_node, kind, words):
-    """Nothing is subscribed in vain."""
-    node = start_node(f'input_type:={kind}')
+def test_type_that_cannot_be_used_ends_the_node_with_a_word(start_node, type_, words):
+    """Nothing is subscribed or promised in vain."""
+    node = start_node(type_)
     assert node.wait() == 1
     assert words in node.log
     assert 'Traceback' not in node.log
