@@ -19,6 +19,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.utilities import ok, try_shutdown
 
+from msg_adapters.parameter_blocks import foreign_files
 from msg_adapters.parameters import BadParameter
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
@@ -55,7 +56,10 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
         print(f'cannot start: {error}', file=sys.stderr)
         return 1
     try:
-        _spin(make_node(), stops)
+        node = make_node()
+        for line in foreign_files(node.get_fully_qualified_name(), args or sys.argv):
+            node.get_logger().warning(f'no parameters from {line}')
+        _spin(node, stops)
     except ExternalShutdownException:
         pass
     except (BadParameter, NotStarted) as error:

@@ -21,15 +21,26 @@ from tracking_core.lifecycle_config import (
     UnresolvedConfig,
 )
 
+FARTHEST = 1e7  # m, of a sensor from the origin of its platform or of the tracking frame
+TURN = 6.3  # rad, a little more than a full one
+
 
 @dataclass(frozen=True)
 class MountConfig:
     """Where the radar sits on its platform."""
 
-    x: float = parameter(0.0, unit='m', doc='forward of the platform origin')
-    y: float = parameter(0.0, unit='m', doc='left of the platform origin')
-    z: float = parameter(0.0, unit='m', doc='above the platform origin')
-    yaw: float = parameter(0.0, unit='rad', doc='anticlockwise from the platform x axis')
+    x: float = parameter(
+        0.0, unit='m', doc='forward of the platform origin', low=-FARTHEST, high=FARTHEST
+    )
+    y: float = parameter(
+        0.0, unit='m', doc='left of the platform origin', low=-FARTHEST, high=FARTHEST
+    )
+    z: float = parameter(
+        0.0, unit='m', doc='above the platform origin', low=-FARTHEST, high=FARTHEST
+    )
+    yaw: float = parameter(
+        0.0, unit='rad', doc='anticlockwise from the platform x axis', low=-TURN, high=TURN
+    )
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""

@@ -27,14 +27,23 @@ from tracking_core.lifecycle_config import (
 _DROP = 1e-4
 _ONE_MODE = ('kalman_decoupled', 'finite_memory')
 
+FARTHEST = 1e7  # m, of a sensor from the origin of its platform or of the tracking frame
+TURN = 6.3  # rad, a little more than a full one
+
 
 @dataclass(frozen=True)
 class MountConfig:
     """Where the sonar sits on its platform."""
 
-    x: float = parameter(0.0, unit='m', doc='forward of the platform origin')
-    y: float = parameter(0.0, unit='m', doc='left of the platform origin')
-    yaw: float = parameter(0.0, unit='rad', doc='anticlockwise from the platform x axis')
+    x: float = parameter(
+        0.0, unit='m', doc='forward of the platform origin', low=-FARTHEST, high=FARTHEST
+    )
+    y: float = parameter(
+        0.0, unit='m', doc='left of the platform origin', low=-FARTHEST, high=FARTHEST
+    )
+    yaw: float = parameter(
+        0.0, unit='rad', doc='anticlockwise from the platform x axis', low=-TURN, high=TURN
+    )
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""

@@ -7,32 +7,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-import re
 from typing import Any, TypeVar
 
 import yaml
 
+from msg_adapters.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
 from tracking_core.config import parameters, with_values
 
 Configs = TypeVar('Configs', bound=tuple[Any, ...])
 
-LEAF = 'ros__parameters'
 # Parameters that every node of ROS has; they mean nothing to a recording.
 OF_ROS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
-_WILDCARDS = {'/**': '(/[^/]+)*', '/*': '/[^/]+'}
-
-
-class _Loader(yaml.SafeLoader):
-    """YAML as rcl reads it: 1e5 is a number."""
-
-
-_Loader.add_implicit_resolver(
-    'tag:yaml.org,2002:float', re.compile(r'[-+]?[0-9]+[eE][-+]?[0-9]+$'), list('-+0123456789')
-)
-
-
-class BadParameterFile(ValueError):  # noqa: N818 (it is the file that is bad)
-    """A parameter file that says nothing usable; names the file and what is wrong with it."""
 
 
 def read_parameter_file(path: Path | str, node: str) -> dict[str, Any]:
@@ -53,18 +38,8 @@ def read_parameter_file(path: Path | str, node: str) -> dict[str, Any]:
         If there is no such file, it is not a parameter file, or no block of it is for this node.
 
     """
-    document = _load(Path(path))
-    blocks = list(_blocks(document, ''))
-    if not blocks:
-        raise BadParameterFile(f"{path}: no '{LEAF}:' in it; expected '/**: {LEAF}: name: value'")
-    mine = [block for name, block in blocks if _fits(name, node)]
-    if not mine:
-        others = ', '.join(sorted({name for name, _ in blocks}))
-        raise BadParameterFile(
-            f"{path}: its parameters are for {others}, none for {node}; '/**:' is for all"
-        )
     values: dict[str, Any] = {}
-    for block in mine:
+    for block in blocks_for(node, read_blocks(path), path):
         values |= {name: _checked(name, value, path) for name, value in _flat(block, '')}
     return values
 
@@ -72,7 +47,7 @@ def read_parameter_file(path: Path | str, node: str) -> dict[str, Any]:
 def parse_value(text: str) -> Any:
     """Return the value that a text means in a parameter file; raises BadParameterFile."""
     try:
-        return yaml.load(text, _Loader)
+        return yaml.load(text, Loader)
     except yaml.YAMLError as error:
         raise BadParameterFile(f'{text!r} is not a value: {error}') from error
 
@@ -107,36 +82,6 @@ def configure(configs: Configs, values: Mapping[str, Any]) -> Configs:
         with_values(config, {name: values[name] for name in own if name in values})
         for config, own in zip(configs, names, strict=True)
     )
-
-
-def _load(path: Path) -> Mapping[str, Any]:
-    try:
-        document = yaml.load(path.read_text(encoding='utf-8'), _Loader)
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadParameterFile(f'{path} cannot be read: {error}') from error
-    except yaml.YAMLError as error:
-        raise BadParameterFile(f'{path} is not YAML: {error}') from error
-    if not isinstance(document, dict):
-        raise BadParameterFile(f"{path}: expected '/**: {LEAF}: name: value'")
-    return document
-
-
-def _blocks(tree: Mapping[Any, Any], name: str) -> Iterator[tuple[str, Mapping[Any, Any]]]:
-    """Yield node name and parameters of each block; namespaces may be nested keys."""
-    for key, below in tree.items():
-        if not isinstance(below, dict):
-            continue
-        if key == LEAF:
-            yield name, below
-        else:
-            yield from _blocks(below, f'{name}/{str(key).strip("/")}')
-
-
-def _fits(pattern: str, node: str) -> bool:
-    """Whether a block's name, wildcards included, is that of the node."""
-    parts = (f'/{part}' for part in pattern.strip('/').split('/'))
-    expression = ''.join(_WILDCARDS.get(part, re.escape(part)) for part in parts)
-    return re.fullmatch(expression, node) is not None
 
 
 def _flat(tree: Mapping[Any, Any], prefix: str) -> Iterator[tuple[str, Any]]:

@@ -23,9 +23,9 @@ NODES: dict[str, tuple[Any, ...]] = {
 HEAD = '| parameter | default | unit | range | meaning | live |'
 INTRODUCTION = """# Parameters
 
-Made by `python -m tracking_tools.parameter_page`; do not edit. *Live* ones may change while the
-node runs and take effect at the next message, the others are read-only. An integer is
-accepted for a number. `ros2 param describe /radar_tracker NAME` shows the same words.
+Made by `python -m tracking_tools.parameter_page > docs/parameters.md`; do not edit. *Live* ones
+may change while the node runs and take effect at the next message, the others are read-only. An
+integer is accepted for a number. `ros2 param describe /radar_tracker NAME` shows the same words.
 """
 
 
@@ -58,7 +58,9 @@ def _range(p: Parameter) -> str:
         return ', '.join(p.choices)
     if p.low is None and p.high is None:
         return ''
-    return f'{"" if p.low is None else f"{p.low:g}"} to {"" if p.high is None else f"{p.high:g}"}'
+    if p.high is None:
+        return f'from {p.low:g}'
+    return f'up to {p.high:g}' if p.low is None else f'{p.low:g} to {p.high:g}'
 
 
 if __name__ == '__main__':

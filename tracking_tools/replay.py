@@ -22,10 +22,10 @@ from rosbags.serde import SerdeError
 from tqdm import tqdm
 
 from msg_adapters.message_types import rosbags_types
+from msg_adapters.parameter_blocks import BadParameterFile
 from msg_adapters.session import Session
 from tracking_tools.bags import BagWriter, NANOSECONDS, open_bag
 from tracking_tools.parameter_file import (
-    BadParameterFile,
     configure,
     parse_value,
     read_parameter_file,

@@ -188,7 +188,7 @@ class LiveTopics:
         if level == self._level:
             return
         self._level, values = level, self._health.values(self._session, now)
-        name = f'{self._node.get_name()}: tracking'
+        name = f'{self._node.get_fully_qualified_name().lstrip("/")}: tracking'
         header = self._types.Header(stamp=self._node.get_clock().now().to_msg(), frame_id='')
         self._diagnostics.publish(
             to_diagnostics(name, level, text, values=values, header=header, types=self._types)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A node as its own process, and a probe that publishes to it and hears what it says."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from itertools import count
 from pathlib import Path
@@ -48,9 +48,9 @@ def start_node(
     numbers = count(1)
     with ExitStack() as running:
 
-        def start(*parameters: str) -> NodeProcess:
-            arguments = [word for parameter in parameters for word in ('-p', parameter)]
-            command = python_node(f'{sensor.node}.node', *arguments)
+        def start(*parameters: str, arguments: Sequence[str] = ()) -> NodeProcess:
+            given = [word for parameter in parameters for word in ('-p', parameter)]
+            command = python_node(f'{sensor.node}.node', *given, *arguments)
             log = tmp_path / f'node_{next(numbers)}.log'
             started.append(NodeProcess(command, ros_domain_id, log, folder=ROOT))
             return running.enter_context(started[-1])

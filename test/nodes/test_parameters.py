@@ -1,0 +1,132 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Parameters of running nodes: presets, files for others, changes that are all right or none."""
+
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParametersAtomically
+
+from tracking_core.config import parameters
+from tracking_tools.sensors import SENSORS
+from tracking_tools.testing import NodeProcess, Peer, python_node
+
+ROOT = Path(__file__).parents[2]
+SONAR_PRESETS = {'sonar', 'passive_linear_array', 'direction_finder'}
+PRESETS = sorted((ROOT / 'config').glob('*.yaml'))
+GROUPS = [PRESETS[start : start + 4] for start in range(0, len(PRESETS), 4)]
+WANTED = {
+    'air_surveillance_3d', 'air_surveillance_2d', 'terminal_radar', 'marine_radar',
+    'fast_small_craft_radar', 'passive_linear_array', 'direction_finder',
+}  # fmt: skip
+
+
+@pytest.fixture
+def sensor(request, radar, sonar):
+    """Return the radar, or the sonar for tests that say so."""
+    return sonar if getattr(request, 'param', '') == 'sonar' else radar
+
+
+def double(name, value):
+    """Return a parameter to set."""
+    kind = ParameterType.PARAMETER_DOUBLE
+    return Parameter(name=name, value=ParameterValue(type=kind, double_value=value))
+
+
+def set_together(probe, *changes):
+    """Ask for all changes or none; return the result."""
+    request = SetParametersAtomically.Request(parameters=list(changes))
+    name = f'{probe.sensor.node}/set_parameters_atomically'
+    return probe.call(SetParametersAtomically, name, request).result
+
+
+def get(probe, *names):
+    """Return the values of parameters."""
+    request = GetParameters.Request(names=list(names))
+    answer = probe.call(GetParameters, f'{probe.sensor.node}/get_parameters', request)
+    return [value.double_value for value in answer.values]
+
+
+@pytest.mark.parametrize('presets', GROUPS, ids=lambda group: '-'.join(p.stem for p in group))
+def test_presets_load_in_a_node(presets, ros_domain_id, tmp_path):
+    """Every shipped file makes a node active, all its values are used, and nothing is odd."""
+    with ExitStack() as running:
+        peer = running.enter_context(Peer(ros_domain_id))
+        nodes = {}
+        for path in presets:
+            package = 'sonar_tracker' if path.stem in SONAR_PRESETS else 'radar_tracker'
+            command = python_node(
+                f'{package}.node', '--params-file', str(path), '-r', f'__node:={path.stem}'
+            )
+            node = NodeProcess(command, ros_domain_id, tmp_path / path.stem, folder=ROOT)
+            nodes[path.stem] = running.enter_context(node)
+        for name, node in nodes.items():
+            peer.wait_until_active(name)
+            node.wait_for_line('parameters come from files or arguments')
+            assert 'WARN' not in node.log, node.log
+
+
+def test_wanted_presets_are_shipped():
+    """Air, terminal, sea, small craft, array and direction finder."""
+    assert {path.stem for path in PRESETS} >= WANTED
+
+
+@pytest.mark.parametrize('kind', SENSORS)
+def test_every_parameter_has_meaning_unit_and_range(kind):
+    """Numbers have all three; switches and names a meaning."""
+    for config in SENSORS[kind].configs:
+        for entry in parameters(config):
+            assert entry.doc
+            first = entry.value[0] if isinstance(entry.value, tuple) else entry.value
+            if isinstance(first, (int, float)) and not isinstance(first, bool):
+                assert entry.unit, entry.name
+                assert entry.low is not None or entry.high is not None, entry.name
+
+
+def test_parameter_files_are_told_apart(start_node, tmp_path):
+    """One for another node and one with a typing error are noticed, an int for a double is not."""
+    foreign, own = tmp_path / 'foreign.yaml', tmp_path / 'own.yaml'
+    foreign.write_text('radar_traker:\n  ros__parameters: {gate.probability: 0.9}\n')
+    own.write_text('/**:\n  ros__parameters: {sensor: {range_sd: 30, azimut_sd: 0.002}}\n')
+    node = start_node(arguments=['--params-file', str(foreign), '--params-file', str(own)])
+    assert '1 parameters come from' in node.wait_for_line('parameters come from')
+    assert 'did you mean sensor.azimuth_sd?' in node.wait_for_line('sensor.azimut_sd')
+    line = node.wait_for_line('no parameters from')
+    assert 'foreign.yaml' in line
+    assert 'are for /radar_traker, none for /radar_tracker' in line
+
+
+@pytest.mark.parametrize('sensor', ['radar', 'sonar'], indirect=True)
+def test_live_change_holds_from_the_next_scan_on(start_node, probe):
+    """A wider gate is in the table of the very next scan; the tracks are kept."""
+    start_node('gate.probability:=0.9')
+    probe.meet()
+    before = probe.confirmed()
+    assert set_together(probe, double('gate.probability', 0.999)).successful
+    after = probe.scan()
+    rows = after['hits'] > 0
+    assert after['gate_threshold'][rows].min() > before['gate_threshold'].max()
+    assert set(after['id']) >= set(before['id'][before['status'] == 1])
+
+
+def test_bad_change_among_good_ones_changes_nothing(start_node, probe):
+    """All or nothing, and the reason names the bad one and its limit."""
+    start_node()
+    probe.meet()
+    names = ['gate.probability', 'existence.confirm', 'clutter_density', 'sensor.range_max']
+    before = get(probe, *names)
+    good = [double('gate.probability', 0.95), double('existence.confirm', 0.9)]
+    for bad, words in (
+        (double('clutter_density', -1.0), ['clutter_density', '0', '-1.0']),
+        (double('existence.drop', float('nan')), ['existence.drop', 'nan']),
+        (double('sensor.range_max', 1e3), ['sensor.range_max', 'read-only']),
+        (double('gate.probabilty', 0.9), ['undeclared']),  # in rclpy's own words
+    ):
+        result = set_together(probe, good[0], bad, good[1])
+        assert not result.successful
+        assert all(word in result.reason for word in words), result.reason
+        assert get(probe, *names) == before
+    assert set_together(probe, *good).successful
+    assert get(probe, *names) == [0.95, 0.9, *before[2:]]
