@@ -37,7 +37,7 @@ def vessels(folder: Path, name: str) -> Record:
     time = d['scan_t']
     own = np.stack([d['own_e'], d['own_n']], axis=1).astype(float)
     return Record(
-        name, _cycles(time, d['meas_scan'], _to_enu(d['meas_bearing'])), _own_ship(time, own),
+        name, cycles_of(time, d['meas_scan'], _to_enu(d['meas_bearing'])), own_ship(time, own),
         d['true_scan'].astype(np.int64), d['true_contact'].astype(np.int64),
         _to_enu(d['true_bearing']), d['true_range'].astype(float), 3.0 * DEGREE, 8000.0,
     )  # fmt: skip
@@ -58,8 +58,8 @@ def camera(folder: Path, name: str, sensor: str) -> Record:
         bearings.append(np.arctan2(line[:, 1], line[:, 0]))
         ranges.append(np.hypot(line[:, 0], line[:, 1]))
     return Record(
-        f'{name} {sensor}', _cycles(time, d[f'{sensor}_scan'], _to_enu(d[f'{sensor}_bearing'])),
-        _own_ship(time, own), np.concatenate(scans), np.concatenate(contacts).astype(np.int64),
+        f'{name} {sensor}', cycles_of(time, d[f'{sensor}_scan'], _to_enu(d[f'{sensor}_bearing'])),
+        own_ship(time, own), np.concatenate(scans), np.concatenate(contacts).astype(np.int64),
         np.concatenate(bearings), np.concatenate(ranges), 5.0 * DEGREE, np.inf,
     )  # fmt: skip
 
@@ -68,7 +68,8 @@ def _to_enu(compass: Floats) -> Floats:
     return wrap_angle(0.5 * np.pi - compass.astype(float))
 
 
-def _cycles(time: Floats, scan: Ints, bearing: Floats) -> list[Bearings]:
+def cycles_of(time: Floats, scan: Ints, bearing: Floats) -> list[Bearings]:
+    """Return the cycles at times (K,) [s] from marks in order of their cycle (M,), (M,) [rad]."""
     ends = np.searchsorted(scan, np.arange(len(time) + 1))
     return [
         Bearings(
@@ -79,8 +80,8 @@ def _cycles(time: Floats, scan: Ints, bearing: Floats) -> list[Bearings]:
     ]  # fmt: skip
 
 
-def _own_ship(time: Floats, own: Floats) -> Platform:
-    """Return own ship with axes to the east and north."""
+def own_ship(time: Floats, own: Floats) -> Platform:
+    """Return own ship at positions (K, 2), with axes to the east and north."""
     K = len(time)
     flat = np.concatenate([own, np.zeros((K, 1))], axis=1)
     return Platform(

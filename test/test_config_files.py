@@ -14,7 +14,7 @@ from tracking_core.config import parameters, with_values
 
 yaml = pytest.importorskip('yaml')
 CONFIG = Path(__file__).parents[1] / 'config'
-SONAR = {'sonar', 'passive_linear_array', 'direction_finder'}
+SONAR = {'sonar', 'passive_linear_array', 'direction_finder', 'camera'}
 FILES = sorted(CONFIG.glob('*.yaml'))
 CONFIGS = {
     'radar': (RadarTrackerConfig(), radar_node_config()),
