@@ -20,7 +20,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 LAUNCH_FILES = sorted((ROOT / 'launch').glob('*.launch.py'))
-COMMON_ARGUMENTS = {'params_file', 'namespace', 'use_sim_time', 'autostart', 'log_level'}
+COMMON_ARGUMENTS = {'namespace', 'use_sim_time', 'autostart', 'log_level'}
 
 
 @dataclass(frozen=True)
@@ -198,6 +198,8 @@ def test_arguments_are_declared_and_used(entities: list[Any]) -> None:
     used = {part.variable_name for part in _only(LaunchConfiguration, list(_parts(entities)))}
     assert {argument.name for argument in declared} == used
     assert used >= COMMON_ARGUMENTS
+    files = [name for name in used if name.endswith('params_file')]
+    assert len(files) == len(_trackers(entities))
     assert all(argument.description for argument in declared)
     assert all(argument.default_value is not None for argument in declared)
 
@@ -216,7 +218,7 @@ def test_default_files_are_shipped(
 ) -> None:
     """Parameter file and RViz configuration are those that setup.py installs."""
     given = _values(entities, sensor=sensor)
-    for name in {'params_file', 'rviz_config'} & given.keys():
+    for name in (name for name in given if name.endswith(('params_file', 'rviz_config'))):
         folder, _, file = _text(given[name], given).rpartition('/')
         shipped = dict(setup_arguments['data_files'])[folder]
         assert file in {Path(path).name for path in shipped}
@@ -258,3 +260,16 @@ def test_replay_starts_rviz_only_when_wanted(monkeypatch: pytest.MonkeyPatch) ->
     (viewer,) = (node for node in _only(Node, entities) if node.package == 'rviz2')
     assert viewer.condition == IfCondition(LaunchConfiguration('rviz'))
     assert _values(entities)['rviz'] == 'false'
+
+
+def test_three_sensors_share_no_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every node and every topic of theirs is in its own namespace; own ship is for all."""
+    entities = _load(ROOT / 'launch' / 'three_sensors.launch.py', monkeypatch)
+    for given in (_values(entities), _values(entities, namespace='/ship')):
+        places = [_text(node.namespace, given) for node in _trackers(entities)]
+        assert len(set(places)) == 3
+        assert all(place.startswith(f'{given["namespace"]}/') for place in places)
+        topics = [
+            {_text(new, given) for _, new in node.remappings} for node in _trackers(entities)
+        ]
+        assert [{name for name in each if name[0] == '/'} for each in topics] == [{'/ownship'}] * 3

@@ -21,6 +21,8 @@ PATIENCE = 10.0  # for a node to end after SIGINT [s]
 DEADLINE = 20.0  # for a node to say something [s]; discovery takes 2.4 s on a loaded machine
 LOOK = 0.02  # between two looks into the log [s]
 
+_locks: dict[int, int] = {}  # file descriptor of the lock by domain id
+
 
 class NodeFailed(RuntimeError):  # noqa: N818 (it is the node that failed)
     """A node that does not do what it should; says how it ended and where its log is."""
@@ -28,13 +30,22 @@ class NodeFailed(RuntimeError):  # noqa: N818 (it is the node that failed)
 
 @contextmanager
 def private_domain() -> Iterator[int]:
-    """Yield a ROS domain id that no other user of this function has, on this machine alone."""
+    """
+    Yield a ROS domain id that no other user of this function has, on this machine alone.
+
+    The nodes that run in it hold it too: one that outlives whoever started it meets nobody.
+    """
     folder = Path(tempfile.gettempdir(), f'contact_tracking_domains_{os.getuid()}')
     folder.mkdir(exist_ok=True)
-    for domain_id in DOMAIN_IDS:
+    first = os.getpid() % len(DOMAIN_IDS)  # seldom where somebody else's nodes were left alone
+    for domain_id in (*DOMAIN_IDS[first:], *DOMAIN_IDS[:first]):
         with (folder / str(domain_id)).open('w') as lock:
             if _is_locked(lock):
-                yield domain_id
+                _locks[domain_id] = lock.fileno()
+                try:
+                    yield domain_id
+                finally:
+                    del _locks[domain_id]
                 return
     raise NodeFailed(f'all ROS domains of {DOMAIN_IDS} are taken; see {folder}')
 
@@ -80,6 +91,7 @@ class NodeProcess:
         folder: Path | str | None = None,
     ) -> None:
         self._command, self._folder = list(command), folder
+        self._held = [_locks[domain_id]] if domain_id in _locks else []
         self._environment = {
             **os.environ,
             'ROS_DOMAIN_ID': str(domain_id),
@@ -97,6 +109,7 @@ class NodeProcess:
                 stdout=out,
                 stderr=subprocess.STDOUT,
                 env=self._environment,
+                pass_fds=self._held,
                 start_new_session=True,  # a Ctrl-C at the terminal is ours to pass on
             )
         return self

@@ -11,7 +11,7 @@ import sys
 from diagnostic_msgs.msg import DiagnosticArray
 import pytest
 
-from tracking_tools.testing import NodeFailed, NodeProcess, Peer, TrackerProbe
+from tracking_tools.testing import NodeFailed, NodeProcess, Peer, private_domain, TrackerProbe
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / 'docs' / 'testing.md'
@@ -66,3 +66,19 @@ def test_waiting_for_a_node_that_has_died_ends_at_once(ros_domain_id, tmp_path):
         ):
             peer.wait_until_active('radar_tracker')
     assert node.exit_code == 3
+
+
+def test_domain_is_not_given_away_while_a_node_lives_in_it(tmp_path):
+    """A node that outlives its test, which was killed perhaps, does not talk into the next one."""
+    command = [sys.executable, '-c', 'print("here", flush=True); import signal; signal.pause()']
+    with private_domain() as domain:
+        node = NodeProcess(command, domain, tmp_path / 'log')
+        node.__enter__()
+        node.wait_for_line('here')
+    try:
+        with private_domain() as other:
+            assert other != domain
+    finally:
+        node.stop()
+    with private_domain() as again:
+        assert again == domain

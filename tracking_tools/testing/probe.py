@@ -123,7 +123,7 @@ class TrackerProbe:
 
     def is_answered(self, stamp: float) -> bool:
         """Return whether the last track table has this stamp [s]."""
-        return bool(self.tables) and abs(seconds(self.tables[-1].header.stamp) - stamp) < SAME
+        return bool(self.tables) and _is_at(self.tables[-1], stamp)
 
     def scan(
         self,
@@ -159,13 +159,23 @@ class TrackerProbe:
     def until_diagnosed_at(self, time: float) -> None:
         """Wait until the node's clock, as its diagnostics show it, is there."""
         self.spin_until(
-            lambda: (
-                self.diagnostics and abs(seconds(self.diagnostics[-1].header.stamp) - time) < SAME
-            ),
-            f'clock at {time}',
+            lambda: (said := self._own_diagnostics()) and _is_at(said, time), f'clock at {time}'
         )
 
     def diagnosed(self, key: str) -> str | None:
-        """Return a value of the last diagnostics of the node."""
-        status = self.diagnostics[-1].status[0] if self.diagnostics else None
-        return next((v.value for v in status.values if v.key == key), None) if status else None
+        """Return a value of the last diagnostics of the node, None before there are any."""
+        said = self._own_diagnostics()
+        return (
+            next((v.value for v in said.status[0].values if v.key == key), None) if said else None
+        )
+
+    def _own_diagnostics(self) -> Any:
+        """Return the last message of our tracker: /diagnostics is for all nodes."""
+        name = f'{self.node.get_namespace()}/{self.sensor.node}: '.lstrip('/')
+        return next(
+            (m for m in reversed(self.diagnostics) if m.status[0].name.startswith(name)), None
+        )
+
+
+def _is_at(msg: Any, stamp: float) -> bool:
+    return abs(seconds(msg.header.stamp) - stamp) < SAME
