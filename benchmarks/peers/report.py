@@ -1,0 +1,142 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""The tables, the losing cases first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+import math
+
+from benchmarks.peers.entrants import OURS, VARIANTS
+from benchmarks.peers.summary import BETTER, Row
+
+WANTED = {'en_route_10': 20, 'en_route_50': 60, 'en_route_200': 100, 'en_route_1000': 150,
+          'formations': 60}  # fmt: skip
+_RIVALS = ('stone_soup', 'stone_soup_tree')  # that the wanted ratios are about
+_WORDS = {'gospa': 'GOSPA', 'held': 'held', 'rmse': 'RMSE', 'switches': 'switches',
+          'cpu': 'CPU [ms]'}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Result:
+    """All trackers on one scene."""
+
+    title: str
+    contacts: float  # a scan
+    plots: float  # a scan
+    unit: str  # of GOSPA and RMSE
+    scale: float  # from SI to that unit
+    rows: Mapping[str, Row]
+
+
+Results = Mapping[str, Result]
+
+
+def table(head: str, lines: list[str]) -> str:
+    """Return a Markdown table."""
+    names = head.split(' | ')
+    return '\n'.join([f'| {head} |', '|' + '---|' * len(names), *(f'| {x} |' for x in lines)])
+
+
+def where_better(results: Results) -> str:
+    """Return where another tracker is better than our default."""
+    lines = []
+    for result in results.values():
+        for name, row in sorted(result.rows.items(), key=lambda item: item[0] in VARIANTS):
+            if name == OURS:
+                continue
+            for measure, figure in row.figures.items():
+                if measure in BETTER and figure.is_better(BETTER[measure]):
+                    scale = _scale(measure, result)
+                    own = (figure.mean - figure.margin) * scale
+                    sure = (
+                        'one run' if math.isnan(figure.error) else f'+- {figure.error * scale:.3g}'
+                    )
+                    lines.append(
+                        f'{result.title} | {row.title} | {_WORDS[measure]} '
+                        f'| {figure.mean * scale:.4g} | {own:.4g} '
+                        f'| {figure.margin * scale:+.3g} ({sure})'
+                    )
+    head = 'scene | tracker | measure | theirs | ours | difference (standard error)'
+    return table(head, lines) if lines else 'Nowhere in this run.'
+
+
+def _scale(measure: str, result: Result) -> float:
+    return result.scale if measure in ('gospa', 'rmse') else 1.0
+
+
+def ratios(results: Results) -> str:
+    """Return the CPU of Stone Soup by ours beside what is wanted, at their accuracies."""
+    lines = []
+    for name, wanted in WANTED.items():
+        for rival in _RIVALS:
+            row = results[name].rows.get(rival) if name in results else None
+            if row is None or 'gospa' not in row.figures:
+                continue
+            gospa = row.figures['gospa']
+            no_worse = gospa.margin >= -1e-9
+            holds = row.ratio >= wanted and no_worse
+            lines.append(
+                f'{results[name].title} | {row.title} | >= {wanted} | {row.ratio:.0f} '
+                f'| {gospa.mean - gospa.margin:.0f} / {gospa.mean:.0f} m '
+                f'| {"yes" if holds else "**no**"}'
+            )
+    return table('scene | against | wanted | measured | GOSPA ours / theirs | holds', lines)
+
+
+def scene_table(result: Result) -> str:
+    """Return all columns of one scene."""
+    u = result.unit
+    head = (
+        f'tracker | CPU a scan [ms] | by ours | GOSPA [{u}] | less ours | missed | false '
+        f'| RMSE [{u}] | held | switches | kB a track | peak [MB]'
+    )
+    return table(head, [_line(row, result.scale) for row in result.rows.values()])
+
+
+def _line(row: Row, scale: float) -> str:
+    memory = ('' if row.memory is None else f'{row.memory.held / 1e3:.1f} '
+              f'| {row.memory.peak / 1e6:.1f}') or ' | '  # fmt: skip
+    if not row.figures:
+        return (
+            f'{row.title} | did {row.scans} of {row.wanted} scans in its time'
+            + ' | ' * 9
+            + (f'| {memory}')
+        )
+    f = row.figures
+    late = '' if row.finished else f' ({row.scans} of {row.wanted} scans)'
+    error = '' if math.isnan(f['gospa'].error) else f' +- {f["gospa"].error * scale:.2g}'
+    return (
+        f'{row.title}{late} | {f["cpu"].mean:.1f} | {row.ratio:.1f} '
+        f'| {f["gospa"].mean * scale:.4g} | {f["gospa"].margin * scale:+.3g}{error} '
+        f'| {f["missed"].mean:.2f} | {f["false"].mean:.2f} | {f["rmse"].mean * scale:.4g} '
+        f'| {f["held"].mean:.3f} | {f["switches"].mean:.1f} | {memory}'
+    )
+
+
+def growth(results: Results) -> str:
+    """Return the CPU by number of contacts."""
+    sizes = [name for name in WANTED if name.startswith('en_route') and name in results]
+    rows: dict[str, list[str]] = {}
+    for name in sizes:
+        for row in results[name].rows.values():
+            ms = f'{row.figures["cpu"].mean:.1f}' if row.figures else 'not finished'
+            rows.setdefault(row.title, []).append(ms)
+    head = ' | '.join(['CPU a scan [ms]', *(f'{results[s].contacts:.0f} contacts' for s in sizes)])
+    return table(head, [' | '.join([title, *cells]) for title, cells in rows.items()])
+
+
+def sections(results: Results) -> Iterator[tuple[str, str]]:
+    """Yield title and text of each part."""
+    yield 'Where another is better than our default', where_better(results)
+    yield 'The wanted ratios to Stone Soup', ratios(results)
+    if sum(name.startswith('en_route') for name in results) > 1:
+        yield 'Growth', growth(results)
+    for result in results.values():
+        rows = next(iter(result.rows.values()))
+        text = (
+            f'{result.contacts:.0f} contacts and {result.plots:.0f} plots a scan, '
+            f'{rows.wanted} scans, {rows.runs} runs.\n\n{scene_table(result)}'
+        )
+        yield result.title[0].upper() + result.title[1:], text
