@@ -1,0 +1,60 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""An ASTERIX radar on the network becomes tracks of the radar node."""
+
+from itertools import count
+import socket
+import subprocess
+import sys
+import time
+
+import pytest
+
+from msg_adapters.table import to_columns
+from tracking_tools.asterix.clock import DAY
+from tracking_tools.asterix.feed import open_udp
+
+generated = pytest.importorskip('asterix.generated')
+
+
+def datagram(time_of_day, rho):
+    """Return a data block with one plot in the east, rho [NM] away."""
+    items = {
+        '010': (('SAC', 25), ('SIC', 201)), '140': (time_of_day, 's'),
+        '020': ((1, 0, 0, 0, 0, None),), '040': (('RHO', (rho, 'NM')), ('THETA', (90.0, '°'))),
+    }  # fmt: skip
+    kind = generated.Cat_048_1_32
+    return kind.create([kind.cv_record.create(items)]).unparse().to_bytes()
+
+
+def test_udp_feed_becomes_tracks(start_node, probe):
+    """Datagrams on the loopback, hostile ones among them, to tracks of the radar node."""
+    with open_udp('udp://127.0.0.1:0') as free:
+        port = free.getsockname()[1]
+    start_node('scan.assembly:=snapshot')
+    command = [sys.executable, '-m', 'tracking_tools.asterix', f'udp://127.0.0.1:{port}']
+    with (
+        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as feed,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as radar,
+    ):
+        start = time.time() % DAY
+
+        steps = count()
+
+        def is_tracked():
+            seconds = 0.25 * next(steps)
+            good = datagram((start + seconds) % DAY, 10.0 + 0.01 * seconds)
+            for data in (b'0', good, bytes([48, 255, 255]), b''):
+                radar.sendto(data, ('127.0.0.1', port))
+            tables = [to_columns(msg, 9) for msg in probe.tables[-1:]]
+            return any((table['status'] == 1).any() for table in tables)
+
+        probe.spin_until(is_tracked, 'a confirmed track')
+        feed.terminate()
+        said, _ = feed.communicate(timeout=20.0)
+    assert feed.returncode == 0
+    assert 'Traceback' not in said.decode()
+    assert 'truncated or of wrong length' in said.decode()
+    track = to_columns(probe.tables[-1], 9)
+    assert abs(track['x'][0] - 18520.0) < 200.0
+    assert abs(track['y'][0]) < 100.0

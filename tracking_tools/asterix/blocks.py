@@ -1,0 +1,169 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which reports are in the bytes of ASTERIX data blocks: monoradar plots of CAT048, marks of CAT034.
+
+Decoding is libasterix's; here it is bounded, and whatever the bytes are, what cannot be read is
+counted. Times are those of day, as sent.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tracking_tools.asterix.clock import DAY
+
+NAUTICAL_MILE = 1852.0  # m
+HEADER = 3  # bytes: category, length of the block with its header
+MOST = 2000  # records of a block; a block that has more is read so far
+PLOTS, SERVICE = 48, 34  # categories
+NO_DETECTION = 0  # in I048/020
+_MARKS = (1, 2)  # in I034/000: north, sector crossing
+
+
+class Report(NamedTuple):
+    """One record."""
+
+    source: tuple[int, int]  # SAC, SIC
+    time_of_day: float  # UTC [s]
+    range: float = np.nan  # slant range [m], NaN: not a plot but a mark of the antenna
+    azimuth: float = np.nan  # anticlockwise from east [rad]
+    doppler: float = np.nan  # as sent [m/s]
+    amplitude: float = np.nan  # [dBm]
+    track: int = 0  # number that the radar gives, 0: none
+
+
+def data_blocks(data: bytes, counts: Counter[str]) -> Iterator[tuple[int, bytes]]:
+    """Yield category and records of each block; the rest of a damaged chain is not read."""
+    at = 0
+    while at < len(data):
+        length = int.from_bytes(data[at + 1 : at + HEADER], 'big')
+        if length <= HEADER or at + length > len(data):
+            counts['truncated or of wrong length'] += 1
+            return
+        yield data[at], data[at + HEADER : at + length]
+        at += length
+
+
+def read_reports(data: bytes, counts: Counter[str]) -> list[Report]:
+    """
+    Return the plots and antenna marks in a chain of data blocks.
+
+    Parameters
+    ----------
+    data : bytes
+        One datagram, or a part of a file.
+    counts : Counter
+        By reason, what was left out.
+
+    """
+    reports = []
+    for category, body in data_blocks(data, counts):
+        if category not in (PLOTS, SERVICE):
+            counts[f'category {category}'] += 1
+            continue
+        to_report = _to_plot if category == PLOTS else _to_mark
+        for record in _records(category, body, counts):
+            report, why = to_report(record)
+            if report is None:
+                counts[why] += 1
+            else:
+                reports.append(report)
+    return reports
+
+
+def is_available() -> bool:
+    """Return whether libasterix is installed; others bring a package of the same name."""
+    try:
+        return find_spec('asterix.generated') is not None
+    except ModuleNotFoundError:
+        return False
+
+
+@cache
+def _library() -> tuple[Any, dict[int, Any]]:
+    """Return libasterix and its records by category; a second of work, so only when needed."""
+    generated = import_module('asterix.generated')
+    records = {
+        PLOTS: generated.Cat_048_1_32.cv_record, SERVICE: generated.Cat_034_1_29.cv_record
+    }  # fmt: skip
+    return import_module('asterix.base'), records
+
+
+def _records(category: int, body: bytes, counts: Counter[str]) -> Iterator[Any]:
+    base, kinds = _library()
+    rest, strict = base.Bits.from_bytes(body), base.ParsingMode.StrictParsing
+    for _ in range(MOST):
+        if not len(rest):
+            return
+        result = kinds[category].parse(strict, rest)
+        if isinstance(result, ValueError):
+            counts['damaged record'] += 1
+            return
+        record, rest = result
+        yield record
+    counts[f'records beyond {MOST} of a block'] += 1
+
+
+def _to_plot(record: Any) -> tuple[Report | None, str]:
+    """Return the plot, or None and why it is none."""
+    kind = record.get_item('020')
+    if kind is not None and _number(kind, 'TYP') == NO_DETECTION:
+        return None, 'no detection'
+    if kind is not None and (_number(kind, 'SIM') or _number(kind, 'TST')):
+        return None, 'simulated or test target'
+    source, time, place = (record.get_item(name) for name in ('010', '140', '040'))
+    if source is None or time is None or place is None:
+        return None, 'without source, time or position'
+    if _quantity(time, 's') >= DAY:
+        return None, 'time beyond the day'
+    theta = _quantity(_part(place, 'THETA'), '°')
+    track = record.get_item('161')
+    report = Report(
+        source=(_number(source, 'SAC'), _number(source, 'SIC')),
+        time_of_day=_quantity(time, 's'),
+        range=_quantity(_part(place, 'RHO'), 'NM') * NAUTICAL_MILE,
+        azimuth=np.pi / 2.0 - np.radians(theta),
+        doppler=_optional(record, '120', ('CAL', 'CAL'), 'm/s'),
+        amplitude=_optional(record, '130', ('PAM',), 'dBm'),
+        track=0 if track is None else _number(track, 'TRN'),
+    )
+    return report, ''
+
+
+def _to_mark(record: Any) -> tuple[Report | None, str]:
+    """Return where the antenna was, or None and why nobody knows."""
+    source, kind, time = (record.get_item(name) for name in ('010', '000', '030'))
+    if source is None or time is None or kind is None or kind.as_uint() not in _MARKS:
+        return None, 'service message without antenna'
+    if _quantity(time, 's') >= DAY:
+        return None, 'time beyond the day'
+    return Report((_number(source, 'SAC'), _number(source, 'SIC')), _quantity(time, 's')), ''
+
+
+def _part(item: Any, *names: str) -> Any:
+    """Return an item inside an item, None where it was not sent."""
+    for name in names:
+        item = None if item is None else item.variation.get_item(name)
+    return item
+
+
+def _number(item: Any, name: str) -> int:
+    part = _part(item, name)
+    return 0 if part is None else int(part.as_uint())
+
+
+def _quantity(item: Any, unit: str) -> float:
+    return float(item.variation.content.as_quantity(unit))
+
+
+def _optional(record: Any, name: str, parts: tuple[str, ...], unit: str) -> float:
+    item = _part(record.get_item(name), *parts)
+    return np.nan if item is None else _quantity(item, unit)

@@ -1,0 +1,125 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""The plots of an ASTERIX radar, published as they come from UDP or from a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+import signal
+import socket
+from threading import Event
+import time
+from typing import Any
+
+import rclpy
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import try_shutdown
+from sensor_msgs.msg import PointCloud2
+
+from tracking_tools.asterix.feed import describe, Feed, LARGEST
+
+REPORT = 10.0  # between two lines on what was left out [s]
+FAREWELL = 2.0  # for readers to confirm the last plots [s]
+ATTENTION = 0.05  # between two looks for a listener [s]
+
+
+class AsterixRadar(Node):
+    """
+    One radar on the air.
+
+    Publisher: ``plots`` (sensor_msgs/PointCloud2, reliable, keep last 10).
+
+    Parameters
+    ----------
+    feed : Feed
+        Makes the messages.
+
+    """
+
+    def __init__(self, feed: Feed) -> None:
+        super().__init__('asterix_radar')
+        self.feed, self._told = feed, time.monotonic()
+        self._plots = self.create_publisher(
+            PointCloud2, 'plots', QoSProfile(depth=10),
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )  # fmt: skip
+
+    def has_listener(self) -> bool:
+        """Return whether somebody hears the plots."""
+        return bool(self._plots.get_subscription_count())
+
+    def tell(self, msg: Any) -> None:
+        """Publish plots; say now and then what was left out."""
+        self._plots.publish(msg)
+        if time.monotonic() - self._told > REPORT:
+            self._told = time.monotonic()
+            self.get_logger().info(describe(self.feed))
+
+    def take_leave(self) -> None:
+        """Say what became of all reports, once reliable readers have the last plots."""
+        self._plots.wait_for_all_acked(Duration(seconds=FAREWELL))
+        self.get_logger().info(describe(self.feed))
+
+
+def publish(
+    feed: Feed, chunks: Iterable[bytes] | socket.socket, ros_arguments: Sequence[str], rate: float
+) -> int:
+    """
+    Publish a socket's datagrams as they come, or chunks of a file at their times; return 0.
+
+    Parameters
+    ----------
+    feed : Feed
+        Makes the messages.
+    chunks : socket, or iterable of bytes
+        Where they come from.
+    ros_arguments : sequence of str
+        Those after ``--ros-args``.
+    rate : float
+        Times real time, for a file.
+
+    """
+    stop = Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stop.set())
+    rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
+    node = AsterixRadar(feed)
+    try:
+        if isinstance(chunks, socket.socket):
+            _hear(node, chunks, stop.is_set)
+        else:
+            _play(node, chunks, rate, stop)
+        node.take_leave()
+    finally:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
+        node.destroy_node()
+        try_shutdown()
+    return 0
+
+
+def _hear(node: AsterixRadar, hearing: socket.socket, is_over: Callable[[], bool]) -> None:
+    while not is_over():
+        try:
+            data = hearing.recv(LARGEST)
+        except TimeoutError:
+            continue
+        node.feed.clock.set(time.time())
+        told = node.feed.message(data)
+        if told is not None:
+            node.tell(told[1])
+
+
+def _play(node: AsterixRadar, chunks: Iterable[bytes], rate: float, stop: Event) -> None:
+    while not node.has_listener() and not stop.wait(ATTENTION):
+        pass
+    begun, first = time.monotonic(), None
+    for stamp, msg in node.feed.messages(chunks):
+        first = stamp if first is None else first
+        if stop.wait(max(begun + (stamp - first) / rate - time.monotonic(), 0.0)):
+            return
+        node.tell(msg)
