@@ -56,5 +56,5 @@ $(BIN)/python:
 
 $(READY): $(BIN)/python setup.py pyproject.toml
 	@echo 'Installing into $(VENV); this takes a few minutes the first time.'
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[ros,tools,feeds,test]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[ros,tools,feeds,report,test]'
 	@touch $@

@@ -49,6 +49,7 @@ setup(
             'ros-jazzy-rmw-fastrtps-cpp',  # rclpy does not import without it
         ],
         'tools': ['rosbags>=0.11', 'matplotlib>=3.6', 'tqdm>=4.66', 'pyyaml>=6.0'],
+        'report': ['bokeh>=3.4'],  # the page of a recording
         # What our tracks and times are compared with; nothing of ours needs them to run.
         'peers': [
             'stonesoup>=1.9',
@@ -68,15 +69,18 @@ setup(
             'import-linter==2.*',
             'colcon-common-extensions>=0.3',
             'colcon-ros>=0.5',
+            'playwright>=1.45',  # drives a browser that is there; brings none
             'setuptools<80',  # from 80 on, colcon cannot link to the sources
         ],
     },
+    package_data={'tracking_tools.report': ['page.html', 'page.css', 'page.js']},
     zip_safe=True,
     entry_points={
         'console_scripts': [
             'evaluate = tracking_tools.evaluate:main',
             'radar_tracker = radar_tracker.node:main',
             'replay = tracking_tools.replay:main',
+            'report = tracking_tools.report.command:main',
             'simulate = tracking_tools.simulate:main',
             'sonar_tracker = sonar_tracker.node:main',
         ],

@@ -104,7 +104,8 @@ def test_every_import_is_declared(
     manifest: ElementTree.Element, setup_arguments: dict[str, Any]
 ) -> None:
     """No shipped file imports what neither package.xml nor setup.py names."""
-    required = setup_arguments['install_requires'] + setup_arguments['extras_require']['tools']
+    extras = setup_arguments['extras_require']
+    required = setup_arguments['install_requires'] + extras['tools'] + extras['report']
     assert _third_party_imports() <= _texts(manifest, 'exec_depend') | _import_names(required)
 
 
@@ -120,6 +121,18 @@ def test_every_folder_with_code_is_a_package(setup_arguments: dict[str, Any]) ->
     """A folder without __init__.py would be left out of the installation."""
     folders = {'.'.join(path.parent.parts) for path in _sources() if path.parts[0] in PACKAGES}
     assert set(setup_arguments['packages']) == folders
+
+
+def test_files_beside_the_code_are_installed(setup_arguments: dict[str, Any]) -> None:
+    """What a package reads at run time goes with it."""
+    found = {
+        (str(path.relative_to(ROOT).parent).replace('/', '.'), path.name)
+        for top in PACKAGES
+        for path in _files(top)
+        if path.suffix not in {'.py', '.pyc'}
+    }
+    named = setup_arguments['package_data'].items()
+    assert found == {(package, name) for package, names in named for name in names}
 
 
 def test_tools_check_every_package(setup_arguments: dict[str, Any]) -> None:

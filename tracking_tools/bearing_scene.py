@@ -48,6 +48,7 @@ def read_bearing_scene(
     topics: Topics,
     sensor: SensorConfig,
     fields: Mapping[str, str],
+    truth: Path | str | None = None,
 ) -> BearingScene:
     """
     Return what the bags of marks and of tracks contain.
@@ -64,6 +65,8 @@ def read_bearing_scene(
         Conventions of the marks.
     fields : mapping
         Our names of their fields to those of the messages.
+    truth : Path or str, optional
+        Bag with the truth, if it is not that of the marks.
 
     """
     platform = read_platform(recording, topics.ownship)
@@ -73,14 +76,15 @@ def read_bearing_scene(
     if len(marks.get('time', ())) and platform is not None and turned:
         heading = pose_at(platform, marks['time']).yaw + sensor.mount.yaw
         marks = {**marks, 'bearing': wrap_angle(marks['bearing'] + heading)}
-    truth = _seen_from(platform, read_rows(recording, topics.truth, table_rows))
+    where = recording if truth is None else truth
+    real = _seen_from(platform, read_rows(where, topics.truth, table_rows))
     table = read_rows(tracks, topics.tracks, table_rows)
     own: Columns = {} if platform is None else _own(platform)
     times = [part['time'] for part in (marks, table) if len(part.get('time', ()))]
     begin = float(min(time.min() for time in times)) if times else 0.0
-    marks, table, truth, own = (since(begin, part) for part in (marks, table, truth, own))
+    marks, table, real, own = (since(begin, part) for part in (marks, table, real, own))
     confirmed = table.get('status', np.zeros(0)) == CONFIRMED
-    return BearingScene(marks, choose(table, confirmed), truth, own)
+    return BearingScene(marks, choose(table, confirmed), real, own)
 
 
 def read_platform(recording: Path | str, topic: str) -> Platform | None:

@@ -22,6 +22,7 @@ from tracking_tools.node_process import NodeFailed
 from tracking_tools.picture import draw
 from tracking_tools.replay import RADAR, read_configs, replay
 from tracking_tools.replay_topics import BadBag, Topics
+from tracking_tools.report import load_page
 from tracking_tools.scene import read_scene
 from tracking_tools.sensors import Configs, Sensor
 
@@ -61,6 +62,7 @@ def show(chosen: argparse.Namespace, demo: Demo) -> None:
     """Track the recording, say how well, and draw it."""
     out, name = chosen.output, demo.name
     tracks, picture, recording = out / f'{name}_tracks', out / f'{name}.png', chosen.recording
+    page = out / f'{name}.html'
     out.mkdir(parents=True, exist_ok=True)
     _remove_bag(tracks)
     if recording is None:
@@ -71,10 +73,16 @@ def show(chosen: argparse.Namespace, demo: Demo) -> None:
         log = out / f'{name}_node.log'
         play(recording, tracks, chosen.params, chosen.rate, log, demo.sensor)
     configs = read_configs(chosen.params, {}, demo.sensor)
+    taken: list[float] = []
     if not chosen.live:
-        print(replay(recording, tracks, configs, sensor=demo.sensor))
+        summary = replay(recording, tracks, configs, sensor=demo.sensor)
+        taken = summary.step_times
+        print(summary)
     print('drawing ...', flush=True)
     print(demo.finish(recording, tracks, picture, configs, chosen.recording == demo.recording))
+    where = (demo.sensor.kind, Topics.of(demo.sensor), recording, tracks)
+    load_page().report_replay(where, configs, taken, page)
+    print(f'page:    {page} (open it in a browser, press space)')
 
 
 def _remove_bag(path: Path) -> None:

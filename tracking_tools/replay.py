@@ -31,6 +31,7 @@ from tracking_tools.parameter_file import (
     read_parameter_file,
 )
 from tracking_tools.replay_topics import BadBag, check_topics, messages_of, Topics
+from tracking_tools.report import load_page
 from tracking_tools.sensors import Configs, Sensor, SENSORS
 from tracking_tools.summary import Console, Summary
 
@@ -81,9 +82,10 @@ def replay(
             check_topics(bag, topics, recording)
             with BagWriter(output) as out:
                 out.announce(topics.tracks, POINT_CLOUD)
-                for table, received in _drive(bag, session, topics, quiet):
+                for table, received, taken in _drive(bag, session, topics, quiet):
                     out.write(topics.tracks, table, received)
                     summary.add(session.tracks, received)
+                    summary.step_times.append(taken)
     except AnyReaderError as error:
         raise BadBag(f'{recording} cannot be read as a rosbag2 recording: {error}') from error
     summary.wall_time = time.perf_counter() - began
@@ -92,8 +94,8 @@ def replay(
 
 def _drive(
     bag: AnyReader, session: Session, topics: Topics, quiet: bool
-) -> Iterator[tuple[Any, int]]:
-    """Yield each track table and when its plots were recorded [ns]."""
+) -> Iterator[tuple[Any, int, float]]:
+    """Yield each track table, when its plots were recorded [ns] and how long it took [s]."""
     handlers = topics.handlers(session)
     chosen = [connection for connection in bag.connections if connection.topic in handlers]
     total = sum(connection.msgcount for connection in chosen)
@@ -107,9 +109,10 @@ def _drive(
             except (AnyReaderError, SerdeError):
                 session.counts[ours.name].refused['not readable'] += 1
                 continue
+            began = time.perf_counter()
             table = ours.take(msg, received / NANOSECONDS)
             if table is not None:
-                yield table, received
+                yield table, received, time.perf_counter() - began
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -123,6 +126,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ValueError as error:
         parser.error(str(error))
     try:
+        pages = load_page() if chosen.report is not None else None
         summary = replay(chosen.recording, chosen.output, configs, topics, chosen.quiet, sensor)
     except (BadBag, OSError) as error:
         print(f'replay: {error}', file=sys.stderr)
@@ -130,6 +134,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print('replay: stopped; nothing was written', file=sys.stderr)
         return 130
+    if pages is not None:
+        where = (chosen.sensor, topics, chosen.recording, chosen.output)
+        pages.report_replay(where, configs, summary.step_times, chosen.report)
     if chosen.picture is not None:
         pictures = import_module(sensor.picture)  # matplotlib takes long to import
         pictures.draw_recording(chosen.recording, chosen.output, topics, configs, chosen.picture)
@@ -164,6 +171,7 @@ def _parser() -> argparse.ArgumentParser:
     add('--output', type=Path, required=True, metavar='OUT_BAG', help='rosbag2 directory to make')
     add('--quiet', action='store_true', help='no progress, no remarks, no summary')
     add('--picture', type=Path, metavar='PNG', help='draw what came out')
+    add('--report', type=Path, metavar='HTML', help='write a page that shows what came out')
     return parser
 
 

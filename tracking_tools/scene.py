@@ -57,6 +57,7 @@ def read_scene(
     topics: Topics | None = None,
     sensor: SensorConfig | None = None,
     fields: Mapping[str, str] | None = None,
+    truth: Path | str | None = None,
 ) -> Scene:
     """
     Return what the bags of plots and of tracks contain.
@@ -73,18 +74,20 @@ def read_scene(
         Conventions of the plots.
     fields : mapping, optional
         Our names of their fields to those of the messages.
+    truth : Path or str, optional
+        Bag with the truth, if it is not that of the plots.
 
     """
     topics, sensor = topics or Topics(), sensor or SensorConfig()
     plots = read_rows(recording, topics.plots, lambda msg: _positions(msg, sensor, fields or {}))
-    truth = read_rows(recording, topics.truth, table_rows)
+    real = read_rows(recording if truth is None else truth, topics.truth, table_rows)
     table = read_rows(tracks, topics.tracks, table_rows)
     timed = [part['time'] for part in (plots, table) if len(part.get('time', ()))]
     begin = float(min(times.min() for times in timed)) if timed else 0.0
-    plots, table, truth = (since(begin, part) for part in (plots, table, truth))
+    plots, table, real = (since(begin, part) for part in (plots, table, real))
     confirmed = table.get('status', np.zeros(0)) == CONFIRMED
     same = frame_of(recording, topics.plots) == frame_of(tracks, topics.tracks)
-    return Scene(plots=plots if same else {}, published=choose(table, confirmed), truth=truth)
+    return Scene(plots=plots if same else {}, published=choose(table, confirmed), truth=real)
 
 
 def choose(columns: Columns, rows: Bools | Ints | slice) -> Columns:

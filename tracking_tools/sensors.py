@@ -29,6 +29,11 @@ class Sensor:
     make_session: Callable[..., Session]
     picture: str  # module that draws a recording and its tracks
 
+    @property
+    def kind(self) -> str:
+        """What it is called in `SENSORS`."""
+        return self.node.removesuffix('_tracker')
+
 
 SENSORS = {
     'radar': Sensor(

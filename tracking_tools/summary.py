@@ -38,6 +38,7 @@ class Summary:
     plots: InputCount  # of the messages and their rows
     tables: int = 0  # written
     confirmed: set[int] = field(default_factory=set)  # ids
+    step_times: list[float] = field(default_factory=list)  # from message to table [s]
     wall_time: float = 0.0  # [s]
     _first: int | None = None  # recorded [ns]
     _last: int = 0

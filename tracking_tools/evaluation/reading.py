@@ -93,6 +93,13 @@ def read_recorded(
 
     """
     kind, topics = find_sensor(tracks, rules, sensor)
+    return read_tracks(kind, topics, tracks, truth, turning)
+
+
+def read_tracks(
+    kind: str, topics: Topics, tracks: Path | str, truth: Path | str, turning: float
+) -> Recorded:
+    """Return what `read_recorded` returns, where the sensor and its topics are known."""
     table, stamps = _read_tracks(tracks, topics, NEEDED[kind])
     real = read_table(truth, topics.truth, ('id', 'x', 'y'))
     _check_overlap(stamps, real['time'], tracks, truth)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tracking_tools.evaluation.judgement import ContactJudgement, Judgement
-from tracking_tools.evaluation.units import Unit, UNITS
+from tracking_tools.evaluation.units import in_words, Unit, UNITS
 from tracking_tools.scoring.consistency import Consistency
 
 MINUTE = 60.0
@@ -65,7 +65,11 @@ def rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
     yield from _set_rows(judgement)
     if judgement.ranges is not None:
         ranges = judgement.ranges
-        yield 'range RMSE', f'{ranges.rmse:.0f} m', f'told in {ranges.share:.1%} of the rows'
+        yield (
+            'range RMSE',
+            in_words(ranges.rmse, 0, 'm'),
+            f'told in {ranges.share:.1%} of the rows',
+        )
 
 
 def _held_rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
@@ -79,10 +83,10 @@ def _held_rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
     yield 'false tracks', str(held.false_tracks), f'{held.false_tracks_per_hour:.1f} an hour'
     late, latest = timing.time_to_confirm_median, timing.time_to_confirm_max
     never = f'; {timing.never_confirmed} contacts never' if timing.never_confirmed else ''
-    confirm = f'median {late:.1f}, most {latest:.1f} s{never}'
-    yield 'time to confirm', f'{timing.time_to_confirm_mean:.1f} s', confirm
+    confirm = f'median {in_words(late, 1, "s")}, most {in_words(latest, 1, "s")}{never}'
+    yield 'time to confirm', in_words(timing.time_to_confirm_mean, 1, 's'), confirm
     told = f'{timing.manoeuvres_told} of {timing.manoeuvres} manoeuvres told'
-    yield 'onset delay', f'{timing.onset_delay_mean:.1f} s', told
+    yield 'onset delay', in_words(timing.onset_delay_mean, 1, 's'), told
     alarm = timing.manoeuvre_false_alarm
     yield 'manoeuvre false alarm', f'{alarm:.2%}', 'of the rows in straight motion'
 
@@ -118,10 +122,11 @@ def _band(found: Consistency) -> str:
 
 def _contact(contact: ContactJudgement, unit: Unit) -> str:
     ids = ', '.join(map(str, contact.tracks)) or 'none'
+    confirm = in_words(contact.time_to_confirm, 0, 's')
     return (
         f'{contact.contact:8d} {contact.duration / MINUTE:6.1f} min {contact.coverage:8.1%} '
         f'{contact.relative_tracking_time:10.3f} {contact.breaks:7d} {contact.id_switches:9d} '
-        f'{contact.time_to_confirm:6.0f} s {unit.far(contact.accuracy.rmse):>11}  {ids}'
+        f'{confirm:>8} {unit.far(contact.accuracy.rmse):>11}  {ids}'
     )
 
 

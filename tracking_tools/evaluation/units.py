@@ -21,11 +21,16 @@ class Unit:
 
     def far(self, value: float) -> str:
         """Return a distance with its unit."""
-        return f'{value * self.scale:.{self.digits}f} {self.far_unit}'
+        return in_words(value * self.scale, self.digits, self.far_unit)
 
     def fast(self, value: float) -> str:
         """Return a speed with its unit."""
-        return f'{value * self.scale:.{self.digits + 1}f} {self.fast_unit}'
+        return in_words(value * self.scale, self.digits + 1, self.fast_unit)
+
+
+def in_words(value: float, digits: int, unit: str) -> str:
+    """Return a figure with its unit, or that there is none."""
+    return f'{value:.{digits}f} {unit}' if math.isfinite(value) else 'none'
 
 
 UNITS = {

@@ -1,0 +1,156 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Does the page hold what was recorded, and nothing that could do harm?"""
+
+from __future__ import annotations
+
+from base64 import b64decode
+from collections.abc import Callable
+import json
+from pathlib import Path
+import re
+from typing import Any
+
+import numpy as np
+from numpy.testing import assert_allclose
+import pytest
+
+pytest.importorskip('bokeh', reason='bokeh (extra report) is not installed')
+
+from tracking_tools.bags import BagWriter, open_bag
+from tracking_tools.replay import main as replay_main
+from tracking_tools.replay_topics import Topics
+from tracking_tools.report.columns import DARK, ellipses, encode, GREEN, lights, RED
+from tracking_tools.report.command import main
+from tracking_tools.report.material import gather, Sources
+from tracking_tools.report.page import page
+
+EVIL = '</script><script>window.hurt = 1</script><img src=x onerror="window.hurt = 2">'
+
+
+def content_of(html: str) -> Any:
+    """Return what the page's script reads."""
+    found = re.search(r'<script type="application/json" id="content">(.*?)</script>', html)
+    assert found is not None
+    return json.loads(found.group(1))
+
+
+def columns_of(encoded: Any) -> dict[str, Any]:
+    """Return encoded columns as arrays."""
+    kinds = {
+        'Float32Array': '<f4',
+        'Float64Array': '<f8',
+        'Uint8Array': 'u1',
+        'Uint32Array': '<u4',
+    }
+    return {
+        name: np.frombuffer(b64decode(part['data']), kinds[part['type']])
+        for name, part in encoded.items()
+    }
+
+
+@pytest.fixture(scope='module')
+def replayed(cut_bag: Callable[[int], Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Track a piece of the demo scene and write its page, as a user does; return the folder."""
+    folder = tmp_path_factory.mktemp('report')
+    arguments = [str(cut_bag(40)), '--sensor', 'radar', '--output', str(folder / 'tracks')]
+    assert replay_main([*arguments, '--report', str(folder / 'new' / 'page.html'), '--quiet']) == 0
+    return folder
+
+
+def test_replay_writes_a_page_with_all_rows(
+    replayed: Path, cut_bag: Callable[[int], Path]
+) -> None:
+    """Confirmed rows, plots and truth are in it, with the parameters and the step times."""
+    html = (replayed / 'new' / 'page.html').read_text()
+    content = content_of(html)
+    tracks, plots = columns_of(content['tracks']), columns_of(content['plots'])
+    topics = Topics()
+    material = gather(Sources('radar', topics, replayed / 'tracks', cut_bag(40), cut_bag(40)))
+    assert len(tracks['id']) == len(material.scene.published['id']) > 100
+    assert len(plots['time']) == len(material.scene.plots['time'])
+    assert_allclose(tracks['x'].max(), material.scene.published['x'].max() / 1000.0, rtol=1e-6)
+    assert 'histogram' in content['figures']
+    assert 'gospa' in content['figures']
+    assert 'sensor.range_sd' in html
+    assert np.all(np.diff(tracks['id'].astype(int)) >= 0)
+
+
+def test_page_asks_nobody_for_anything(replayed: Path) -> None:
+    """No script, style, picture or font comes from elsewhere."""
+    html = (replayed / 'new' / 'page.html').read_text()
+    markup = re.sub(r'<script.*?</script>', '', html, flags=re.DOTALL)
+    assert not re.findall(r'(?:src|href)\s*=\s*(?!["\']?data:,)', markup)
+    assert not re.findall(r'<script[^>]*\bsrc', html)
+    assert '@import' not in markup
+    assert 'url(' not in markup
+
+
+def test_page_takes_nothing_recorded_for_markup(
+    replayed: Path, tmp_path: Path, messages: Any
+) -> None:
+    """A title, a topic and a path that try to end the script stay text."""
+    topic = f'/{EVIL}'
+    with BagWriter(tmp_path / 'tracks') as out, open_bag(replayed / 'tracks') as bag:
+        for connection, time, raw in bag.messages():
+            out.write_raw(topic, connection.msgtype, raw, time)
+    topics = Topics.remapped([f'tracks:={topic}'])
+    html = page(gather(Sources('radar', topics, tmp_path / 'tracks'), title=EVIL))
+    assert '<script>window.hurt' not in html
+    assert '<img' not in re.sub(r'<script.*?</script>', '', html, flags=re.DOTALL)
+    assert '&lt;/script&gt;&lt;script&gt;window.hurt' in html
+    assert len(columns_of(content_of(html)['tracks'])['id']) > 100
+
+
+def test_encode_keeps_every_value() -> None:
+    """Bytes come back as they were, also of big-endian and of strided columns."""
+    columns = {
+        'a': np.arange(6, dtype='>f4')[::2],
+        'b': np.array([0, 255], np.uint8),
+        'c': np.array([1e-300, np.nan]),
+    }
+    for name, values in columns_of(encode(columns)).items():
+        assert_allclose(values, columns[name])
+
+
+def test_ellipses_hold_95_percent() -> None:
+    """Of normal errors with a covariance 95 % fall into its ellipse, half axes along its axes."""
+    P = np.array([[[9.0, 4.0], [4.0, 4.0]]])
+    major, minor, angle = ellipses(P)
+    errors = np.random.default_rng(4).multivariate_normal([0.0, 0.0], P[0], 20_000)
+    c, s = np.cos(angle[0]), np.sin(angle[0])
+    along, across = errors @ [c, s], errors @ [-s, c]
+    inside = (along / major[0]) ** 2 + (across / minor[0]) ** 2 <= 1.0
+    assert_allclose(inside.mean(), 0.95, atol=0.005)  # three sigma of the share
+
+
+def test_lights_are_those_of_the_innovation() -> None:
+    """Three dimensions: 5 is usual, 17 is beyond one in a thousand, a missed look is dark."""
+    table = {
+        'id': np.arange(4), 'nis': np.array([5.0, 17.0, np.nan, 5.0]),
+        'coasted': np.array([0, 0, 0, 1]),
+    }  # fmt: skip
+    assert lights(table, 3).tolist() == [GREEN, RED, DARK, DARK]
+
+
+def test_report_command_on_tracks_alone(
+    replayed: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without plots, truth and parameters the page says so and shows the tracks."""
+    output = tmp_path / 'page.html'
+    assert main([str(replayed / 'tracks'), '--output', str(output)]) == 0
+    assert str(output) in capsys.readouterr().out
+    html = output.read_text()
+    for what in ('Without a truth', 'The parameters were not given', 'does not tell how long'):
+        assert what in html
+    assert content_of(html)['plots'] == content_of(html)['truth'] == {}
+
+
+@pytest.mark.parametrize('bag', ['nothing', 'recording'])
+def test_report_command_says_what_is_missing(
+    bag: str, cut_bag: Callable[[int], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """No bag, and a bag without tracks, are refused in one line."""
+    path = cut_bag(40) if bag == 'recording' else tmp_path / bag
+    assert main([str(path), '--output', str(tmp_path / 'page.html')]) == 1
+    assert re.match('report: .*(no bag at|has no topic)', capsys.readouterr().err)

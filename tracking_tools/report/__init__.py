@@ -1,0 +1,31 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What happened in a recording? One page to open in any browser, without a network.
+
+Read ``material`` (what is shown), ``columns`` (how it gets into the page), ``stage``, ``panels``
+(its figures), ``page`` (all together) and ``page.js`` (what moves) in this order.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+
+def load_page() -> Any:
+    """
+    Return the module that writes pages.
+
+    Raises
+    ------
+    OSError
+        Where bokeh is missing, with the way to get it.
+
+    """
+    try:
+        return import_module('tracking_tools.report.page')
+    except ModuleNotFoundError as error:
+        if error.name != 'bokeh':
+            raise
+        raise OSError('the page needs bokeh: pip install bokeh') from error
