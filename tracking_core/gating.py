@@ -9,6 +9,8 @@ import numpy as np
 from tracking_core.batches import Floats, Ints
 from tracking_core.linalg import wrap_angle
 
+_FEW = 20_000  # track-plot combinations that are all compared sooner than sorted
+
 
 def box_pairs(
     centre: Floats, half_size: Floats, plots: Floats, most: int = 5_000_000
@@ -16,8 +18,8 @@ def box_pairs(
     """
     Find all plots inside axis-parallel boxes around the tracks.
 
-    Plots are sorted by grid row, then by x; a track looks only into the rows that its box
-    touches, so that the work grows with the number of pairs, not with T times M.
+    Unless they are few, plots are sorted by grid row, then by x; a track looks only into the rows
+    that its box touches, so that the work grows with the number of pairs, not with T times M.
 
     Parameters
     ----------
@@ -39,6 +41,8 @@ def box_pairs(
     empty = np.zeros(0, np.int64)
     if len(centre) == 0 or len(plots) == 0:
         return empty, empty
+    if len(centre) * len(plots) <= min(_FEW, most):
+        return _compare_all(centre, half_size, plots)
     if plots.shape[1] == 1:  # one coordinate: one row
         centre, half_size = np.pad(centre, ((0, 0), (0, 1))), np.pad(half_size, ((0, 0), (0, 1)))
         plots = np.pad(plots, ((0, 0), (0, 1)))
@@ -55,6 +59,16 @@ def box_pairs(
     both = track * len(plots) + plot
     both.sort()
     return np.divmod(both, len(plots))
+
+
+def _compare_all(centre: Floats, half_size: Floats, plots: Floats) -> tuple[Ints, Ints]:
+    """Do what `box_pairs` does, without order."""
+    inside = np.abs(plots[:, 0] - centre[:, :1]) <= half_size[:, :1]
+    for axis in range(1, plots.shape[1]):
+        at = slice(axis, axis + 1)
+        inside &= ~(np.abs(plots[:, axis] - centre[:, at]) > half_size[:, at])  # NaN: as below
+    track, plot = inside.nonzero()
+    return track, plot
 
 
 def sector_pairs(

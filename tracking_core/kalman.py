@@ -8,6 +8,7 @@ import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
 from tracking_core.linalg import inverse, over_modes, sum_by_track, symmetrise
+from tracking_core.rows import take_rows
 
 _LOG_TWO_PI = float(np.log(2.0 * np.pi))
 _LEAST_MODE_PROBABILITY = 1e-300  # divides nothing by zero; such a mode has no weight anyway
@@ -36,14 +37,11 @@ def innovate(mixture: Mixture, track: Ints, measurement: Measurement) -> Innovat
     [ZHUK09] eq. 22 to 24 with the sign, S^-1 and (2 pi)^(d/2) that print lacks.
 
     """
-    mean, covariance = mixture.mean.take(track, axis=0), mixture.covariance.take(track, axis=0)
+    mean, covariance = take_rows(mixture.mean, track), take_rows(mixture.covariance, track)
     H = measurement.matrix  # (P, d, n)
-    H_transposed = np.swapaxes(H, -1, -2)
-    P, J, n = mean.shape
-    cross = covariance.reshape(P, J * n, n) @ H_transposed  # P H^T, of all modes at once
-    cross = cross.reshape(P, J, n, H.shape[1])
-    S = H[:, None] @ cross + measurement.covariance[:, None]
-    nu = measurement.value[:, None] - mean @ H_transposed
+    cross = np.einsum('pjnm,pdm->pjnd', covariance, H, order='F')  # P H^T
+    S = np.einsum('pdn,pjne->pjde', H, cross) + measurement.covariance[:, None]
+    nu = measurement.value[:, None] - np.einsum('pjn,pdn->pjd', mean, H)
     return from_innovation(nu, S, cross, measurement.covariance, measurement.absent)
 
 
@@ -75,7 +73,7 @@ def log(probability: Floats) -> Floats:
 def kalman_gain(innovations: Innovations) -> Floats:
     """Return K = P H^T S^-1 (P, J, n, d)."""
     S_inverse, _ = inverse(innovations.covariance)
-    return np.asarray(innovations.cross_covariance @ S_inverse)
+    return np.asarray(np.einsum('pjnd,pjde->pjne', innovations.cross_covariance, S_inverse))
 
 
 def condition(
@@ -83,13 +81,13 @@ def condition(
     track: Ints,
     innovations: Innovations,
     association: Association,
-    gain: Floats,
+    gain: Floats | None = None,
 ) -> Mixture:
     """
     Update every mode with the plots of its track, weighted by their association probability.
 
     The covariance after a plot with gain K is P - K C^T - C K^T + K S K^T, C = P H^T, which holds
-    for any gain and is P - K S K^T for Kalman's.
+    for any gain and is P - K C^T for Kalman's, where K S = C.
 
     Parameters
     ----------
@@ -101,8 +99,8 @@ def condition(
         Of the pairs.
     association : Association
         Given that the tracks exist: per track miss + sum of probabilities = 1.
-    gain : (P, J, n, d) array
-        K of every pair and mode.
+    gain : (P, J, n, d) array, optional
+        K of every pair and mode, Kalman's if not given.
 
     Returns
     -------
@@ -122,13 +120,16 @@ def condition(
     safe = np.maximum(posterior, _LEAST_MODE_PROBABILITY)
     weight = weight / safe[track]
 
-    shift = (gain @ innovations.innovation[..., None])[..., 0]  # K nu
-    cross = innovations.cross_covariance
-    change = (gain @ innovations.covariance - cross) @ np.swapaxes(gain, -1, -2)
-    change -= gain @ np.swapaxes(cross, -1, -2)
-    change += np.einsum('pjn,pjm->pjnm', shift, shift)
-    mean_shift = sum_by_track(weight[..., None] * shift, track, T)
-    covariance = mixture.covariance + sum_by_track(weight[..., None, None] * change, track, T)
+    K, C = kalman_gain(innovations) if gain is None else gain, innovations.cross_covariance
+    shift = np.einsum('pjnd,pjd->pjn', K, innovations.innovation)  # K nu
+    weighted, weighted_K = weight[..., None] * shift, weight[..., None, None] * K
+    change = np.einsum('pjn,pjm->pjnm', weighted, shift)
+    change -= np.einsum('pjnd,pjmd->pjnm', weighted_K, C)
+    if gain is not None:
+        excess = np.einsum('pjnd,pjde->pjne', K, innovations.covariance) - C
+        change += np.einsum('pjnd,pjmd->pjnm', weighted_K, excess)
+    mean_shift = sum_by_track(weighted, track, T)
+    covariance = mixture.covariance + sum_by_track(change, track, T)
     covariance -= np.einsum('tjn,tjm->tjnm', mean_shift, mean_shift)
     total = over_modes(np.add, posterior)[:, None]
     return Mixture(

@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from tracking_core.batches import Bools, Floats, Ints, Tracks
+from tracking_core.batches import Bools, Floats, Ints, Mixture, Tracks
 from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
 
 _HISTORY = (1 << 60) - 1  # looks remembered as bits
@@ -24,12 +24,12 @@ class Lifecycle(Protocol):
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
         ...
 
-    def hits(self, found: Floats, error_ratio: Floats) -> Bools:
+    def hits(self, found: Floats, before: Mixture, after: Mixture) -> Bools:
         """
         Return which tracks (T,) count this look as one with a plot.
 
-        `found` is the chance that a plot is theirs, `error_ratio` the sd of their place after the
-        look over that before.
+        `found` is the chance that a plot is theirs, `before` and `after` the look is their first
+        plane.
         """
         ...
 
@@ -54,7 +54,7 @@ class Existence:
         survival = np.exp(-np.maximum(dt, 0.0) / self.config.lifetime)
         return np.asarray(tracks.existence_probability * survival)
 
-    def hits(self, found: Floats, error_ratio: Floats) -> Bools:
+    def hits(self, found: Floats, before: Mixture, after: Mixture) -> Bools:
         """Return which tracks (T,) more probably than not have a plot."""
         return np.asarray(found > _MORE_THAN_NOT)
 
@@ -74,7 +74,7 @@ class MOfN:
         """Return 1 (T,): counting knows no doubt."""
         return np.ones(len(tracks))
 
-    def hits(self, found: Floats, error_ratio: Floats) -> Bools:
+    def hits(self, found: Floats, before: Mixture, after: Mixture) -> Bools:
         """Return which tracks (T,) more probably than not have a plot."""
         return np.asarray(found > _MORE_THAN_NOT)
 
@@ -100,9 +100,10 @@ class ErrorRatio:
         """Return 1 (T,): counting knows no doubt."""
         return np.ones(len(tracks))
 
-    def hits(self, found: Floats, error_ratio: Floats) -> Bools:
+    def hits(self, found: Floats, before: Mixture, after: Mixture) -> Bools:
         """Return which tracks (T,) are surer of their place than before."""
-        return np.asarray(error_ratio < self.config.ratio)
+        old, new = before.moments()[1][:, 0, 0], after.moments()[1][:, 0, 0]
+        return np.asarray(np.sqrt(np.maximum(new, 0.0) / old) < self.config.ratio)
 
     def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""

@@ -23,7 +23,9 @@ def nearest_turn(angle: Floats, reference: Floats) -> Floats:
 
 def symmetrise(matrix: Floats) -> Floats:
     """Return the symmetric part of (..., n, n)."""
-    return np.asarray(0.5 * (matrix + np.swapaxes(matrix, -1, -2)))
+    total = np.add(matrix, np.swapaxes(matrix, -1, -2), order='F')
+    total *= 0.5
+    return np.asarray(total)
 
 
 def determinant(matrix: Floats) -> Floats:
@@ -114,7 +116,9 @@ def sum_by_track(rows: Floats, track: Ints, tracks: int) -> Floats:
         Zero for tracks without rows.
 
     """
-    result = np.zeros((tracks, *rows.shape[1:]))
+    if rows.ndim == 1:
+        return np.asarray(np.bincount(track, rows, tracks), np.float64)
+    result = np.zeros((tracks, *rows.shape[1:]), order='F')
     if len(track):
         starts = first_rows(track)
         result[track[starts]] = np.add.reduceat(rows, starts, axis=0)

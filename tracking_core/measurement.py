@@ -8,6 +8,7 @@ import numpy as np
 
 from tracking_core.batches import Floats, Measurement, Pairs, Scan
 from tracking_core.linalg import nearest_turn
+from tracking_core.rows import take_rows
 
 
 def of_plane(
@@ -37,12 +38,12 @@ def of_plane(
 
     """
     d = len(coordinates)
-    at = np.array(coordinates)
-    value = scan.position[pairs.plot[:, None], at]
+    part = slice(coordinates[0], coordinates[-1] + 1)
+    value = take_rows(scan.position[:, part], pairs.plot)
     if near is not None:
-        value = nearest_turn(value, near[:, at])
-    covariance = scan.covariance[pairs.plot[:, None, None], at[:, None], at]
-    matrix = np.zeros((len(pairs), d, 2 * d))
+        value = nearest_turn(value, near[:, part])
+    covariance = take_rows(scan.covariance[:, part, part], pairs.plot)
+    matrix = np.zeros((len(pairs), d, 2 * d), order='F')
     for axis in range(d):
         matrix[:, axis, 2 * axis], matrix[:, axis, 2 * axis + 1] = 1.0, pairs.lag
     return without_absent(value, matrix, covariance)

@@ -63,16 +63,19 @@ class ModeChain:
         return np.asarray(time / time.sum())
 
     @cached_property
-    def _spectrum(self) -> tuple[Floats, Floats, Floats]:
+    def _spectrum(self) -> tuple[Floats, Floats]:
+        """Return decay rates (k,) and the matrices (k, i, j) that decay with them."""
         # Q is similar to a symmetric matrix, because the chain is reversible.
         rate, root = 1.0 / np.array(self.sojourn_time), np.sqrt(self.stationary)
         generator = np.repeat(rate[:, None] / max(self.modes - 1, 1), self.modes, axis=1)
         np.fill_diagonal(generator, -rate if self.modes > 1 else 0.0)
         values, vectors = np.linalg.eigh(root[:, None] * generator / root[None, :])
-        return values, vectors / root[:, None], vectors.T * root[None, :]
+        left, right = vectors / root[:, None], vectors.T * root[None, :]
+        return np.minimum(values, 0.0), left.T[:, :, None] * right[:, None, :]
 
     def transition_probability(self, dt: Floats) -> Floats:
         """Return Pi (T, J, J) over the times dt (T,) [s]; entry [t, i, j] is from i to j."""
-        values, left, right = self._spectrum
-        decay = np.exp(np.minimum(values, 0.0) * np.asarray(dt)[:, None])  # (T, J)
-        return np.minimum(np.maximum((left * decay[:, None, :]) @ right, 0.0), 1.0)
+        rates, parts = self._spectrum
+        decay = np.exp(rates[:, None] * dt).T  # (T, k)
+        product = np.einsum('tk,kij->tij', decay, parts, order='F')
+        return np.asarray(np.minimum(np.maximum(product, 0.0), 1.0))

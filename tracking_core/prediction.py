@@ -55,9 +55,9 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
     )  # fmt: skip
 
 
-def next_passes(updated: Tracks, scan: Scan) -> tuple[bool, Bools]:
+def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]:
     """
-    Return whether the antenna has passed a track near the cut a second time in a message.
+    Return whether the antenna has passed a living track near the cut a second time in a message.
 
     A second pass may also have begun only: then its plots (M,) must wait, they are the other
     thing returned.
@@ -65,13 +65,14 @@ def next_passes(updated: Tracks, scan: Scan) -> tuple[bool, Bools]:
     waiting = np.zeros(len(scan), bool)
     if abs(scan.coverage.sweep) < np.pi:
         return False, waiting
-    position, velocity = _level_motion(updated)
-    looks = next_looks(position, velocity, updated.time, scan.coverage)
-    size = _GATES_APART * updated.gate_size[:, :2].max(axis=1, initial=0.0)
+    motion = (*_level_motion(updated), updated.time, updated.gate_size[:, :2])
+    position, velocity, time, gate_size = (take(part, lives) for part in motion)
+    looks = next_looks(position, velocity, time, scan.coverage)
+    size = _GATES_APART * gate_size.max(axis=1, initial=0.0)
     margin = margins(position, size, scan.coverage)
     begun = looks.time - margin <= scan.coverage.end_time
     if begun.any():
-        ahead = (looks.time - updated.time)[begun, None]
+        ahead = (looks.time - time)[begun, None]
         box = np.repeat(size[begun, None], 2, axis=1)
         track, plot = box_pairs(
             position[begun] + velocity[begun] * ahead, box, scan.position[:, :2]

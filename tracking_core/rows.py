@@ -1,6 +1,11 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How are rows of a batch taken, joined and replaced, whatever arrays the batch holds?"""
+"""
+How are rows of a batch taken, joined and replaced, whatever arrays the batch holds?
+
+Arrays of more than one axis lie in memory with the rows innermost (order F): the same entry of
+all the small matrices of a batch is one stretch, and numpy works along it.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Batch = TypeVar('Batch')
+
+_PLAIN = ('float', 'int', 'bool', 'str', 'tuple[float, float, float]')  # as annotated
 
 
 def take(batch: Batch, rows: NDArray[Any] | slice) -> Batch:
@@ -35,42 +42,58 @@ def put(batch: Batch, rows: NDArray[Any], part: Batch) -> Batch:
     def replace(old: NDArray[Any], new: NDArray[Any]) -> NDArray[Any]:
         if len(new) == len(old):
             return new
-        result = old.copy()
+        result = old.copy('K')
         result[rows] = new
         return result
 
     return cast('Batch', _join(batch, part, replace))
 
 
+def take_rows(values: NDArray[Any], rows: NDArray[Any] | slice) -> NDArray[Any]:
+    """Return these rows of one array, innermost in memory."""
+    if isinstance(rows, slice):
+        return values[rows]
+    return values.take(rows) if values.ndim == 1 else values.T.take(rows, axis=-1).T
+
+
 def _append(new: NDArray[Any], old: NDArray[Any]) -> NDArray[Any]:
-    return np.concatenate([old, new])
+    return np.concatenate((old.T, new.T), axis=-1).T
 
 
 def _take(value: Any, rows: NDArray[Any] | slice) -> Any:
     """Index every array of a dataclass, of those in it and in its tuples."""
-    if isinstance(value, np.ndarray):
-        return value[rows] if isinstance(rows, slice) else value.take(rows, axis=0)
-    if isinstance(value, tuple):
+    if type(value) is np.ndarray:
+        return take_rows(value, rows)
+    if type(value) is tuple:
         return tuple([_take(part, rows) for part in value])
     kind: Any = type(value)
-    names = _names(kind)
-    return kind(*[_take(getattr(value, n), rows) for n in names]) if names else value
+    if not _is_batch(kind):
+        return value
+    return _batch(kind, {name: _take(part, rows) for name, part in vars(value).items()})
 
 
 def _join(value: Any, other: Any, join: Callable[..., NDArray[Any]]) -> Any:
     """Join every array of a dataclass with that of another of the same kind."""
-    if isinstance(value, np.ndarray):
+    if type(value) is np.ndarray:
         return join(value, other)
-    if isinstance(value, tuple):
+    if type(value) is tuple:
         return tuple([_join(*both, join) for both in zip(value, other, strict=True)])
     kind: Any = type(value)
-    names = _names(kind)
-    if not names:
+    if not _is_batch(kind):
         return value
-    return kind(*[_join(getattr(value, n), getattr(other, n), join) for n in names])
+    one, two = vars(value), vars(other)
+    joined = {name: _join(part, two[name], join) for name, part in one.items() if name in two}
+    return _batch(kind, joined)
+
+
+def _batch(kind: type, columns: dict[str, Any]) -> Any:
+    """Return what `kind(**columns)` returns; a frozen dataclass takes twice the time for it."""
+    batch: Any = object.__new__(kind)
+    vars(batch).update(columns)
+    return batch
 
 
 @lru_cache(maxsize=64)
-def _names(kind: type) -> tuple[str, ...]:
-    """Return the fields of a dataclass, none for any other type."""
-    return tuple(f.name for f in fields(kind)) if is_dataclass(kind) else ()
+def _is_batch(kind: type) -> bool:
+    """Return whether this is a dataclass with more than numbers and words in it."""
+    return is_dataclass(kind) and any(f.type not in _PLAIN for f in fields(kind))

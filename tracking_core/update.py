@@ -13,7 +13,6 @@ from tracking_core.batches import (
     Bools,
     Floats,
     Ints,
-    Mixture,
     Scan,
     Tracks,
 )  # fmt: skip
@@ -101,7 +100,7 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
     lives = ~(ended | broken)
-    again, early = next_passes(take(updated, lives), scan)
+    again, early = next_passes(updated, lives, scan)
     kept, worked_on = np.ones(len(tracks), bool), np.zeros(len(tracks), bool)
     kept[passed.row], worked_on[passed.row] = lives, True
     return Look(
@@ -140,6 +139,8 @@ def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:
 def _of_tracks(gated: Gated, visible: Bools, kept: Bools) -> Gated:
     """Return the pairs of visible tracks, with tracks numbered as among the kept ones."""
     gated = take(gated, visible[gated.pairs.track])
+    if kept.all():
+        return gated
     number = np.cumsum(kept) - 1
     return replace(gated, pairs=replace(gated.pairs, track=number[gated.pairs.track]))
 
@@ -156,7 +157,7 @@ def _update(
         )
     )
     found = share.found
-    hit = setup.lifecycle.hits(found, _error_ratio(passed.planes[0], planes[0]))
+    hit = setup.lifecycle.hits(found, passed.planes[0], planes[0])
     weighted = sum_by_track(share.association.probability * gated.distance, track, T)
     tracks = replace(
         count_looks(passed.tracks, hit),
@@ -184,9 +185,3 @@ def _follow_level(tracks: Tracks, gated: Gated, share: Share, scan: Scan) -> Flo
     old = np.where(np.isfinite(tracks.level), tracks.level, mean)
     gain = total * np.maximum(_LEVEL_GAIN, 1.0 / (1.0 + tracks.hits))
     return np.where((total > 0.5) | np.isfinite(tracks.level), old + gain * (mean - old), np.nan)
-
-
-def _error_ratio(before: Mixture, after: Mixture) -> Floats:
-    """Return by what factor (T,) the look has changed the sd of the tracks' first coordinate."""
-    old, new = before.moments()[1][:, 0, 0], after.moments()[1][:, 0, 0]
-    return np.sqrt(np.maximum(new, 0.0) / old)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
-from tracking_core.kalman import condition, innovate, kalman_gain
+from tracking_core.kalman import condition, innovate
 from tracking_core.motion import Motion
 
 
@@ -53,7 +53,7 @@ class DecoupledKalman:
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association
     ) -> Mixture:
         """Return the plane after the plots, its covariance cut to the diagonal."""
-        after = condition(mixture, track, innovations, association, kalman_gain(innovations))
+        after = condition(mixture, track, innovations, association)
         return replace(after, covariance=_diagonal(after.covariance))
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
-from tracking_core.kalman import condition, innovate, kalman_gain
+from tracking_core.kalman import condition, innovate
 from tracking_core.linalg import over_modes, symmetrise
 from tracking_core.mode_chain import Chain
 from tracking_core.motion import Motion
@@ -59,8 +59,9 @@ class MarkovJump:
         """Mix the modes and move them over the times dt (T,) [s] (eq. 18 to 21)."""
         mixed = mix(mixture, self.chain.transition_probability(dt))
         F, Q = self._dynamics(dt, mixture.mean.shape[2])
-        mean = (F @ mixed.mean[..., None])[..., 0]
-        covariance = symmetrise(F @ mixed.covariance @ np.swapaxes(F, -1, -2) + Q)
+        mean = np.einsum('tjab,tjb->tja', F, mixed.mean, order='F')
+        moved = np.einsum('tjab,tjbc->tjac', F, mixed.covariance)
+        covariance = symmetrise(np.einsum('tjac,tjdc->tjad', moved, F, order='F') + Q)
         return Mixture(mean, covariance, mixed.mode_probability, mixture.memory)
 
     def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
@@ -71,10 +72,10 @@ class MarkovJump:
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association
     ) -> Mixture:
         """Update modes and mode probabilities (eq. 22 to 24)."""
-        return condition(mixture, track, innovations, association, kalman_gain(innovations))
+        return condition(mixture, track, innovations, association)
 
     def _dynamics(self, dt: Floats, n: int) -> tuple[Floats, Floats]:
-        F, Q = np.empty((2, len(dt), len(self.motions), n, n))
+        F, Q = np.empty((len(dt), len(self.motions), n, n, 2), order='F').transpose(4, 0, 1, 2, 3)
         for mode, motion in enumerate(self.motions):
             F[:, mode], Q[:, mode] = motion.transition(dt), motion.process_noise(dt)
         return F, Q
@@ -104,13 +105,12 @@ def mix(mixture: Mixture, transition_probability: Floats) -> Mixture:
     [ZHUK09] eq. 18 to 20.
 
     """
-    T, J, n = mixture.mean.shape
     joint = mixture.mode_probability[:, :, None] * transition_probability  # (T, i, j)
     predicted = over_modes(np.add, joint)
     weight = np.swapaxes(joint / np.maximum(predicted, _LEAST_WEIGHT)[:, None], 1, 2)  # (T, j, i)
     offset = mixture.mean - mixture.mean[:, :1]  # small numbers: no cancellation below
-    mean = weight @ offset
+    mean = np.einsum('tji,tin->tjn', weight, offset)
     square = mixture.covariance + np.einsum('tjn,tjm->tjnm', offset, offset)
-    covariance = (weight @ square.reshape(T, J, n * n)).reshape(T, J, n, n)
+    covariance = np.einsum('tji,tinm->tjnm', weight, square)
     covariance -= np.einsum('tjn,tjm->tjnm', mean, mean)
     return Mixture(mixture.mean[:, :1] + mean, covariance, predicted, mixture.memory)

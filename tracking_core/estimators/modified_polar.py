@@ -16,7 +16,7 @@ import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
 from tracking_core.estimators.markov_jump import mix
-from tracking_core.kalman import condition, innovate, kalman_gain
+from tracking_core.kalman import condition, innovate
 from tracking_core.linalg import symmetrise
 from tracking_core.mode_chain import ModeChain
 
@@ -102,7 +102,7 @@ class ModifiedPolar:
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association
     ) -> Mixture:
         """Return the plane after the plots, each weighted by its association probability."""
-        return condition(mixture, track, innovations, association, kalman_gain(innovations))
+        return condition(mixture, track, innovations, association)
 
     def _noise(self, dt: Floats) -> Floats:
         """Return Q (T, J, 4, 4)."""

@@ -27,7 +27,7 @@ class ConstantVelocity:
 
     def transition(self, dt: Floats) -> Floats:
         """Return F (T, n, n) over the times dt (T,) [s]."""
-        matrix = np.zeros((len(dt), 2 * self.axes, 2 * self.axes))
+        matrix = np.zeros((len(dt), 2 * self.axes, 2 * self.axes), order='F')
         for place in range(0, 2 * self.axes, 2):
             matrix[:, place, place] = matrix[:, place + 1, place + 1] = 1.0
             matrix[:, place, place + 1] = dt
@@ -42,7 +42,7 @@ def white_acceleration_noise(dt: Floats, acceleration_sd: float, axes: int) -> F
     """Return G G^T (T, n, n), G = acceleration_sd (dt^2/2, dt) on each axis, dt (T,) [s]."""
     to_position, to_velocity = acceleration_sd * 0.5 * dt * dt, acceleration_sd * dt
     cross = to_position * to_velocity
-    matrix = np.zeros((len(dt), 2 * axes, 2 * axes))
+    matrix = np.zeros((len(dt), 2 * axes, 2 * axes), order='F')
     for place in range(0, 2 * axes, 2):
         matrix[:, place, place] = to_position**2
         matrix[:, place + 1, place + 1] = to_velocity**2

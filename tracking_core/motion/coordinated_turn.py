@@ -30,7 +30,7 @@ class CoordinatedTurn:
             return ConstantVelocity(self.acceleration_sd).transition(dt)
         angle = self.turn_rate * dt
         along, across = np.sin(angle) / self.turn_rate, (1.0 - np.cos(angle)) / self.turn_rate
-        matrix = np.zeros((len(dt), 4, 4))
+        matrix = np.zeros((len(dt), 4, 4), order='F')
         matrix[:, 0, 0] = matrix[:, 2, 2] = 1.0
         matrix[:, 0, 1] = matrix[:, 2, 3] = along
         matrix[:, 2, 1], matrix[:, 0, 3] = across, -across
