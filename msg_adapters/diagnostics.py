@@ -23,6 +23,8 @@ class InputCount:
     late_used: int = 0  # messages that came after newer ones
     late_dropped: int = 0  # ... and too late to be used
     lost: int = 0  # gaps in the publisher's own numbers
+    shed: int = 0  # passed over unread, because the node is too slow and newer ones were there
+    publishers: int = 0  # there are at the moment
     refused: Counter[str] = field(default_factory=Counter)  # messages by reason
     dropped: Counter[str] = field(default_factory=Counter)  # rows by reason
     doubtful: Counter[str] = field(default_factory=Counter)  # values by reason
@@ -40,7 +42,7 @@ class InputCount:
             With more than one, numbers of several interleave and gaps mean nothing.
 
         """
-        self.messages += 1
+        self.messages, self.publishers = self.messages + 1, publishers
         if number is not None and self._number is not None and publishers == 1:
             # A restarted publisher counts from the start again.
             self.lost += max(number - self._number - 1, 0)
@@ -61,6 +63,8 @@ class InputCount:
             f'{topic} messages': self.messages,
             f'{topic} rows': self.rows,
             f'{topic} lost': self.lost,
+            f'{topic} shed': self.shed,
+            f'{topic} publishers': self.publishers,
             f'{topic} late, used': self.late_used,
             f'{topic} late, dropped': self.late_dropped,
             f'{topic} messages refused': self.refused.total(),

@@ -43,6 +43,11 @@ class Ledger:
         self.counts[topic].refused[reason] += 1
         self.warn(f'{topic}: {reason}', f'{topic} message refused: {error}')
 
+    def shed(self, topic: str) -> None:
+        """Count a message that is passed over for a newer one."""
+        self.counts[topic].shed += 1
+        self.warn(f'{topic} shed', f'too slow for these {topic}: only the newest are used')
+
     def use(
         self, topic: str, rows: int, dropped: Mapping[str, int], doubtful: Mapping[str, int]
     ) -> None:

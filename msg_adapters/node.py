@@ -23,6 +23,7 @@ from msg_adapters.parameter_blocks import foreign_files
 from msg_adapters.parameters import BadParameter
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
+DEPTH = 50  # messages of an input that may wait
 NANOSECONDS = 1_000_000_000
 
 
@@ -97,9 +98,21 @@ def _ignore_stops() -> None:
 
 def subscribe(node: Any, kind: Any, topic: str, callback: Callable[..., None]) -> Any:
     """Return a subscription that any publisher can serve; users may override its QoS."""
-    qos = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
+    qos = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
     options = QoSOverridingOptions.with_default_policies()
     return node.create_subscription(kind, topic, callback, qos, qos_overriding_options=options)
+
+
+def take_waiting(subscription: Any) -> list[tuple[Any, Any]]:
+    """Return what waits on a subscription, oldest first: messages, and what is known of each."""
+    waiting: list[tuple[Any, Any]] = []
+    with subscription.handle:
+        while len(waiting) < DEPTH:  # a publisher may be faster than we can take
+            taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
+            if taken is None:
+                break
+            waiting.append(taken)
+    return waiting
 
 
 def advertise(node: Any, kind: Any, topic: str) -> Any:

@@ -64,6 +64,10 @@ class NodeConfig:
         10.0, unit='s', doc='a stamp further off is refused until several in a row agree',
         low=0.01, high=1e6,
     )  # fmt: skip
+    max_delay: float = parameter(
+        1.0, unit='s', low=0.0, high=3600.0,
+        doc='messages that have waited longer give way to the newest one; 0: all are used',
+    )  # fmt: skip
     ownship_timeout: float = parameter(
         2.0, unit='s', doc='plots may be so far from the nearest odometry of own ship', low=0.0,
         high=3600.0,

@@ -23,11 +23,17 @@ class Health:
     plots_at: float = -math.inf  # when the last plots came, by the same clock [s]
     ownship_at: float = -math.inf
     _complaints: int = 0
+    _shed: int = 0
 
     def level(self, session: Session, now: float) -> tuple[str, str]:
         """Return level and message: what is worst at the moment."""
         if now - max(self.plots_at, self.started) > QUIET:
             return 'WARN', f'no {session.instrument.topic}'
+        crowded = [topic for topic, count in session.counts.items() if count.publishers > 1]
+        if session.counts[session.instrument.topic].shed > self._shed:
+            return 'WARN', f'too slow: only the newest {session.instrument.topic} are used'
+        if crowded:
+            return 'WARN', f'several publishers on {" and ".join(crowded)}'
         if len(session.tracks) >= NEAR_CAPACITY * session.instrument.tracker.config.max_tracks:
             return 'WARN', 'close to max_tracks'
         if _complaints(session) > self._complaints:
@@ -37,6 +43,7 @@ class Health:
     def told(self, session: Session) -> None:
         """Take note that complaints up to now have been reported."""
         self._complaints = _complaints(session)
+        self._shed = session.counts[session.instrument.topic].shed
 
     def values(self, session: Session, now: float) -> dict[str, object]:
         """Return every number by name; ages and times in s."""

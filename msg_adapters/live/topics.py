@@ -21,6 +21,7 @@ from msg_adapters.kinds.menu import message_class
 from msg_adapters.live.bodies import BodyTopics
 from msg_adapters.live.display import Display
 from msg_adapters.live.health import Health, QUIET
+from msg_adapters.live.inputs import age, Inputs
 from msg_adapters.live.openings import Openings
 from msg_adapters.message_types import rclpy_types, seconds
 from msg_adapters.node import arrival_time, explain_silence, NANOSECONDS
@@ -64,12 +65,13 @@ class LiveTopics:
 
     def _open(self, openings: Openings, input_class: Any) -> None:
         hear, tell = openings.hear, openings.tell
-        self._inputs = {  # of two that are there, the executor takes the first
+        subscriptions = {  # of two that are there, the executor takes the first
             'ownship': hear(Odometry, 'ownship', self._on_ownship),
             self._topic: hear(input_class, self._topic, self._on_plots),
             'acquire': hear(PointStamped, 'acquire', self._on_acquire),
             'cancel': hear(UInt32, 'cancel', self._on_cancel),
         }
+        self._inputs = Inputs(subscriptions, self._session.ledger)
         self._tracks = tell(PointCloud2, '~/tracks')
         self._bodies = BodyTopics(openings, self._node_config.output_type, self._types)
         self._markers = tell(MarkerArray, '~/markers')
@@ -99,17 +101,20 @@ class LiveTopics:
         self._session.instrument.tracker.reconfigure(config)
 
     def _on_plots(self, msg: Any, info: Any) -> None:
-        self._count(self._topic, info)
         if not self._is_active:
+            self._inputs.ignore(self._topic, info)
             return
         begun = time.perf_counter()
+        msg, info = self._inputs.freshest(self._topic, (msg, info), self._node_config.max_delay)
+        for odometry in self._inputs.waiting('ownship'):  # it must be known at the plots' time
+            self._on_ownship(*odometry)
         self._health.plots_at, self._is_heard = time.monotonic(), True
         self._compare_clocks(msg)
         table = self._session.plots(msg, arrival_time(self._node))
         if table is not None:
             self._tracks.publish(table)
             self._show()
-            self._health.latency = (time.time_ns() - info['received_timestamp']) / NANOSECONDS
+            self._health.latency = age(info)
         self._health.step_time = time.perf_counter() - begun
         self._report()
 
@@ -127,8 +132,10 @@ class LiveTopics:
             self._markers.publish(self._display.draw(self._session, now, markers))
 
     def _on_ownship(self, msg: Any, info: Any) -> None:
-        self._count('ownship', info)
-        if self._is_active:
+        if not self._is_active:
+            self._inputs.ignore('ownship', info)
+        else:
+            self._inputs.count('ownship', info)
             self._health.ownship_at = time.monotonic()
             self._session.ownship(msg, arrival_time(self._node))
 
@@ -145,15 +152,6 @@ class LiveTopics:
         response.success, response.message = True, 'all tracks are forgotten'
         self._node.get_logger().info('reset: all tracks are forgotten')
         return response
-
-    def _count(self, topic: str, info: Any) -> None:
-        number = info.get('publication_sequence_number')
-        publishers = self._inputs[topic].get_publisher_count()
-        count = self._session.counts[topic]
-        if self._is_active:
-            count.received(number, publishers)
-        else:
-            count.ignored(number)
 
     def _compare_clocks(self, msg: Any) -> None:
         """Say once when stamps and clock have nothing to do with each other."""
@@ -174,7 +172,9 @@ class LiveTopics:
             self._draw()
         if self._is_active and not self._is_heard and now - self._health.started > QUIET:
             self._is_heard = True
-            self._node.get_logger().warning(explain_silence(self._node, self._inputs[self._topic]))
+            self._node.get_logger().warning(
+                explain_silence(self._node, self._inputs.subscriptions[self._topic])
+            )
         self._level = ''
         self._report()
         self._health.told(self._session)

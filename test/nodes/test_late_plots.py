@@ -21,7 +21,7 @@ PERIOD = 4.0
 
 def test_reordered_plots_are_tracked_as_a_replay_does(start_node, probe):
     """Late plots are counted, stamps rise, ids stay, and the bytes are those of a replay."""
-    start_node(RELIABLE)
+    start_node(RELIABLE, 'max_delay:=0.0')
     probe.meet()
     assert probe.call(Trigger, 'radar_tracker/reset', Trigger.Request()).success
     probe.tables.clear()

@@ -1,0 +1,58 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""The live radar node when plots come faster than it can use them."""
+
+import numpy as np
+
+from msg_adapters.message_types import seconds
+
+MESSAGES, PLOTS = 45, 4000  # fewer messages than the transport keeps
+MAX_DELAY = 0.2  # s
+RELIABLE = 'qos_overrides./plots.subscription.reliability:=reliable'
+STEP = 0.05  # s between stamps
+
+
+def noise(rng):
+    """Return so many false plots that a scan of them takes long."""
+    columns = {'range': rng.uniform(1e3, 3e5, PLOTS), 'azimuth': rng.uniform(-3.1, 3.1, PLOTS)}
+    return {name: values.astype(np.float32) for name, values in columns.items()}
+
+
+def test_node_that_is_too_slow_uses_the_newest_plots_and_counts_the_rest(start_node, probe):
+    """A burst: the last message is answered, each is used or shed, and the wait stays bounded."""
+    start_node(RELIABLE, f'max_delay:={MAX_DELAY}')
+    probe.meet()
+    before = int(probe.diagnosed('plots messages') or 0)
+    rng, first = np.random.default_rng(0), probe.stamp + 1.0
+    answered = len(probe.tables)
+    for number in range(MESSAGES):
+        probe.send(noise(rng), first + STEP * number)
+    last = first + STEP * (MESSAGES - 1)
+    probe.spin_until(lambda: probe.is_answered(last), 'the newest plots')
+    used = len(probe.tables) - answered
+    assert used < MESSAGES  # else this machine is too fast for the test
+    probe.spin_until(
+        lambda: probe.diagnosed('plots shed') == str(MESSAGES - used), 'the shed ones counted'
+    )
+    assert probe.diagnosed('plots lost') == '0'
+    assert int(probe.diagnosed('plots messages')) >= before + MESSAGES
+    stamps = [seconds(table.header.stamp) for table in probe.tables]
+    assert (np.diff(stamps) > 0.0).all()
+    texts = {status.message for msg in probe.diagnostics for status in msg.status}
+    assert 'too slow: only the newest plots are used' in texts
+
+
+def test_two_publishers_of_plots_are_reported(start_node, probe):
+    """A recording and a radar on one topic: the diagnostics warn."""
+    start_node()
+    probe.meet()
+    second = probe.tell(type(probe.tables[-1]), 'plots')
+    probe.peer.wait_until_matched(second)
+    warning = 'several publishers on plots'
+
+    def is_warned():
+        probe.scan()
+        return any(status.message == warning for status in probe.diagnostics[-1].status)
+
+    probe.spin_until(is_warned, warning)
+    assert probe.diagnosed('plots publishers') == '2'
