@@ -16,7 +16,8 @@ from msg_adapters.bad_message import BadMessage
 
 WAYS_OUT = (
     'give the odometry of the platform on the topic ownship, or say with sensor.mount.* where the '
-    'sensor stands in the tracking frame, or set tracking_frame to the frame of the data'
+    'sensor stands in the tracking frame, or set tracking_frame to the frame of the data, or set '
+    'use_tf'
 )
 
 

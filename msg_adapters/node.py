@@ -17,6 +17,7 @@ from rclpy.duration import Duration
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
+from rclpy.time import Time
 from rclpy.utilities import ok, try_shutdown
 
 from msg_adapters.parameter_blocks import foreign_files
@@ -141,6 +142,16 @@ def arrival_time(node: Any) -> float:
     if clock.ros_time_is_active:
         return float(clock.now().nanoseconds / NANOSECONDS)
     return time.monotonic()
+
+
+def to_time(time: float) -> Time:
+    """Return a time [s since the epoch] as rclpy has it."""
+    return Time(nanoseconds=round(time * NANOSECONDS))
+
+
+def to_duration(seconds: float) -> Duration:
+    """Return a duration [s] as rclpy has it."""
+    return Duration(nanoseconds=round(seconds * NANOSECONDS))
 
 
 def explain_silence(node: Any, subscription: Any) -> str:

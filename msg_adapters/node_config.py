@@ -60,6 +60,12 @@ class NodeConfig:
         '', unit='', choices=('', RADAR_TRACKS),
         doc='message type in which contacts are published once more; empty: none',
     )  # fmt: skip
+    use_tf: bool = parameter(
+        False, unit='', doc='take the place of the sensor from tf2 instead of ownship and mount'
+    )
+    tf_patience: float = parameter(
+        0.5, unit='s', doc='messages wait so long for their transform', low=0.0, high=60.0
+    )
     time_jump_threshold: float = parameter(
         10.0, unit='s', doc='a stamp further off is refused until several in a row agree',
         low=0.01, high=1e6,
@@ -76,6 +82,10 @@ class NodeConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
+        if self.use_tf and not self.tracking_frame:
+            raise ValueError(
+                'NodeConfig.use_tf needs a tracking_frame: name the frame in which to track'
+            )
         try:
             check_type(self.input_type)
         except ValueError as error:

@@ -3,9 +3,8 @@
 """
 What is done with each message, without a ROS graph and whatever the sensor.
 
-The node hands over what it receives and publishes what comes back; a replay may do the same with
-the messages of a bag. Whatever a message contains, the worst that happens is that it is refused,
-counted and complained about.
+The node hands over what it receives and publishes what comes back, as a replay does with those of
+a bag. Whatever a message contains, the worst that happens is a refusal, counted and said.
 """
 
 from __future__ import annotations
@@ -26,8 +25,9 @@ from msg_adapters.node_config import NodeConfig
 from msg_adapters.ownship import to_platform
 from msg_adapters.reading import Reading
 from msg_adapters.stamp_guard import StampGuard
+from msg_adapters.whereabouts import Transforms, Whereabouts
 from tracking_core.batches import Tracks
-from tracking_core.platform import Platform, StalePlatform
+from tracking_core.platform import StalePlatform
 
 
 class Session:
@@ -53,7 +53,7 @@ class Session:
         self.instrument = instrument
         self.ledger = Ledger(f'{instrument.topic} ownship acquire', log.warning)
         self.guard = StampGuard(node_config.time_jump_threshold)
-        self._ownship_guard = StampGuard(node_config.time_jump_threshold)
+        self.whereabouts = Whereabouts(node_config)
         history = History(node_config.scan.late, node_config.time_jump_threshold)
         self._follower = Follower(instrument, history)
         self._node_config, self._types, self._log = node_config, types, log
@@ -64,13 +64,18 @@ class Session:
         """Be as after a start, but for the tracks that must be reported as deleted."""
         self._follower.history.reset()
         self.guard.reset()
-        self._ownship_guard.reset()
-        self.platform = Platform.empty(self._node_config.ownship_timeout)
-        self.frame = TrackingFrame(
-            self._node_config.tracking_frame, self.instrument.is_mounted, self._log.info
-        )
+        self.whereabouts.reset()
+        name, is_mounted = self._node_config.tracking_frame, self.instrument.is_mounted
+        is_moving = self.whereabouts.transforms is not None
+        self.frame = TrackingFrame(name, is_mounted, self._log.info, moving=is_moving)
         self.stamp: Any = None  # of the last plots that were used
         self._mapping: dict[str, str] = {}
+
+    def use_transforms(self, transforms: Transforms) -> None:
+        """Take the place of the sensor from these; ValueError if a mount is set too."""
+        if self.instrument.is_mounted:
+            raise ValueError('use_tf is true and sensor.mount is set: tf2 knows the mount')
+        self.whereabouts.transforms, self.frame.moving = transforms, True
 
     @property
     def counts(self) -> dict[str, InputCount]:
@@ -96,7 +101,7 @@ class Session:
         """
         Return the track table after this message, None if it was refused or came late.
 
-        Late plots are used at their own time; the next table shows what they have changed.
+        Late plots are used at their own time; the next table shows it. `NotYet` passes.
 
         Parameters
         ----------
@@ -117,10 +122,9 @@ class Session:
     def _follow(self, msg: Any, received: float) -> Any:
         reading = self.instrument.read(msg, self._mapping)
         self.frame.check_plots(reading.plots.frame)
-        platform = self.platform if self.instrument.uses_platform(self.frame) else None
-        if platform is not None:  # before the guard takes the stamp
-            platform.at(np.append(reading.plots.time, reading.plots.stamp))
         plots, history = reading.plots, self._follower.history
+        uses_platform = self.instrument.uses_platform(self.frame)
+        platform = self.whereabouts.of(plots, self.frame) if uses_platform else None
         if history.takes(plots.stamp) and not self.guard.is_going_back:
             self._follower.insert(plots, platform, self.frame)
             self._use(reading)
@@ -166,9 +170,7 @@ class Session:
                 self._log.warning('own ship appeared: tracking starts anew in its frame')
                 self._follower.history.reset()
                 self.instrument.tracker.reset()
-            if self._ownship_guard.accept(float(sample.time[0]), received):
-                self.platform = Platform.empty(self._node_config.ownship_timeout)
-            self.platform = self.platform.add(sample)
+            self.whereabouts.take(sample, received)
         except BadMessage as error:
             self.ledger.refuse('ownship', error.reason, error)
 
@@ -180,9 +182,8 @@ class Session:
                 raise BadMessage('no scan yet', f'no {self.instrument.topic} have come yet')
             self.frame.check_point(msg.header.frame_id.lstrip('/'))
             if not (np.abs(position) <= self.instrument.reach).all():
-                raise BadMessage(
-                    'bad point', f'point is {position}, farther than {self.instrument.reach:g} m'
-                )
+                far = f'point is {position}, farther than {self.instrument.reach:g} m'
+                raise BadMessage('bad point', far)
             track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
             self._follower.history.close()
             self._log.info(f'track {track_id} started at {position} m')

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
+from msg_adapters.live.transforms import TfTransforms
 from msg_adapters.node import advertise, on_clock_going_back, steady_timer, subscribe
 
 Callback = Callable[..., Any]
@@ -48,6 +49,12 @@ class Openings:
     def when_clock_goes_back(self, callback: Callback) -> None:
         """Call back when simulated time goes back."""
         self._closing.callback(on_clock_going_back(self._node, callback).unregister)
+
+    def transforms(self) -> TfTransforms:
+        """Return what tf2 hears; ValueError where it is not installed."""
+        transforms = TfTransforms(self._node)
+        self._closing.callback(transforms.close)
+        return transforms
 
     def _keep(self, end: Any, destroy: Callback) -> Any:
         self._closing.callback(destroy, end)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 import time
 from typing import Any
 
@@ -19,18 +20,20 @@ from visualization_msgs.msg import MarkerArray
 from msg_adapters.diagnostics import to_diagnostics
 from msg_adapters.kinds.menu import message_class
 from msg_adapters.live.bodies import BodyTopics
+from msg_adapters.live.clock_check import ClockCheck
 from msg_adapters.live.display import Display
 from msg_adapters.live.health import Health, QUIET
 from msg_adapters.live.inputs import age, Inputs
 from msg_adapters.live.openings import Openings
-from msg_adapters.message_types import rclpy_types, seconds
-from msg_adapters.node import arrival_time, explain_silence, NANOSECONDS
+from msg_adapters.live.waiting import Waiting
+from msg_adapters.message_types import rclpy_types
+from msg_adapters.node import arrival_time, explain_silence
 from msg_adapters.session import Session
 
 Configs = tuple[Any, ...]
 MakeSession = Callable[..., Session]
 
-CLOCK_OFF = 10.0  # s between stamps and clock that are worth a word
+RETRY = 0.02  # s between two looks for a transform that is missed
 
 
 class LiveTopics:
@@ -49,13 +52,13 @@ class LiveTopics:
     """
 
     def __init__(self, node: Any, make_session: MakeSession, configs: Configs) -> None:
-        self._node, self._node_config = node, configs[1]
-        self._types = rclpy_types()
+        self._node, self._node_config, self._types = node, configs[1], rclpy_types()
         self._session = make_session(*configs, self._types, node.get_logger())
         self._topic = self._session.instrument.topic
         self._display = Display(self._types)
         self._health = Health(time.monotonic())
-        self._level, self._is_active, self._is_heard, self._is_late = '', False, False, False
+        self._clock_check = ClockCheck(node, self._topic)
+        self._level, self._is_active, self._is_heard = '', False, False
         self._openings = Openings(node)
         try:
             self._open(self._openings, message_class(configs[1].input_type))
@@ -78,7 +81,16 @@ class LiveTopics:
         self._diagnostics = openings.tell_always(DiagnosticArray, '/diagnostics')
         openings.serve(Trigger, '~/reset', self._on_reset)
         openings.every(1.0, self._tick)
+        self._follow_transforms(openings)
         openings.when_clock_goes_back(self._session.guard.clock_moved)
+
+    def _follow_transforms(self, openings: Openings) -> None:
+        config, ledger = self._node_config, self._session.ledger
+        refuse = partial(ledger.refuse, self._topic, 'no transform')
+        self._waiting = Waiting(self._use_plots, refuse, config.tf_patience)
+        if config.use_tf:
+            self._session.use_transforms(openings.transforms())
+            openings.every(RETRY, self._waiting.retry)
 
     def close(self) -> None:
         """Give all topics back."""
@@ -92,6 +104,7 @@ class LiveTopics:
     def deactivate(self) -> None:
         """Stop listening and clear the screens; tracks are kept."""
         self._is_active = False
+        self._waiting.clear()
         if self._session.stamp is not None:
             self._markers.publish(self._display.erase(self._session.header()))
 
@@ -104,12 +117,15 @@ class LiveTopics:
         if not self._is_active:
             self._inputs.ignore(self._topic, info)
             return
-        begun = time.perf_counter()
         msg, info = self._inputs.freshest(self._topic, (msg, info), self._node_config.max_delay)
         for odometry in self._inputs.waiting('ownship'):  # it must be known at the plots' time
             self._on_ownship(*odometry)
         self._health.plots_at, self._is_heard = time.monotonic(), True
-        self._compare_clocks(msg)
+        self._clock_check.compare(msg.header.stamp)
+        self._waiting.take(msg, info)
+
+    def _use_plots(self, msg: Any, info: Any) -> None:
+        begun = time.perf_counter()
         table = self._session.plots(msg, arrival_time(self._node))
         if table is not None:
             self._tracks.publish(table)
@@ -152,18 +168,6 @@ class LiveTopics:
         response.success, response.message = True, 'all tracks are forgotten'
         self._node.get_logger().info('reset: all tracks are forgotten')
         return response
-
-    def _compare_clocks(self, msg: Any) -> None:
-        """Say once when stamps and clock have nothing to do with each other."""
-        now = self._node.get_clock().now().nanoseconds / NANOSECONDS
-        off = seconds(msg.header.stamp) - now
-        if abs(off) > CLOCK_OFF and not self._is_late:
-            self._is_late = True
-            side = 'ahead of' if off > 0.0 else 'behind'
-            self._node.get_logger().warning(
-                f'header.stamp of {self._topic} is {abs(off):.0f} s {side} the clock: '
-                'use_sim_time? Tracking goes by the stamps'
-            )
 
     def _tick(self) -> None:
         """Once a second: report, draw what was not due before, and explain a silence."""

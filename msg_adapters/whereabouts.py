@@ -1,0 +1,84 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where was the sensor's platform? From own ship's odometry, or from whoever knows transforms."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+
+from msg_adapters.frames import TrackingFrame
+from msg_adapters.node_config import NodeConfig
+from msg_adapters.stamp_guard import StampGuard
+from tracking_core.batches import Floats
+from tracking_core.platform import Platform
+
+
+class NotYet(Exception):  # noqa: N818 (a state rather than an error)
+    """Where the sensor was at the time of these plots is not known yet; says what is missing."""
+
+
+class Transforms(Protocol):
+    """Whoever knows where frames are."""
+
+    def sensor(self, frame: str, into: str, times: Floats) -> Platform:
+        """
+        Return where the sensor's frame was in another one, from the first to the last time [s].
+
+        Raises
+        ------
+        NotYet
+            If that is not known, or not yet.
+
+        """
+
+
+class Whereabouts:
+    """
+    The platform's path.
+
+    Parameters
+    ----------
+    node_config : NodeConfig
+        Limits of times.
+
+    """
+
+    def __init__(self, node_config: NodeConfig) -> None:
+        self._config, self.transforms = node_config, None
+        self._guard = StampGuard(node_config.time_jump_threshold)
+        self.reset()
+
+    transforms: Transforms | None
+
+    def reset(self) -> None:
+        """Forget the path."""
+        self._guard.reset()
+        self.platform = Platform.empty(self._config.ownship_timeout)
+
+    def take(self, sample: Platform, received: float) -> None:
+        """Add one odometry; raises BadMessage for an odd stamp."""
+        if self._guard.accept(float(sample.time[0]), received):
+            self.platform = Platform.empty(self._config.ownship_timeout)
+        self.platform = self.platform.add(sample)
+
+    def of(self, plots: Any, frame: TrackingFrame) -> Platform:
+        """
+        Return a path that covers the times of these plots.
+
+        Raises
+        ------
+        StalePlatform, NotYet
+            Where there is none.
+
+        """
+        times = np.append(plots.time, plots.stamp)
+        if self.transforms is not None and frame.needs_platform:
+            samples = self.transforms.sensor(plots.frame, frame.name, times)
+            newest = self.platform.time[-1:]
+            if (newest - samples.time[0] > self._config.time_jump_threshold).any():
+                self.platform = Platform.empty(self._config.ownship_timeout)
+            self.platform = self.platform.add(samples)
+        self.platform.at(times)
+        return self.platform

@@ -1,0 +1,111 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Plots in the frame of a sensor whose place comes from tf2: against a stand-in of its API."""
+
+from importlib.util import find_spec
+from pathlib import Path
+
+from geometry_msgs.msg import TransformStamped
+import numpy as np
+import pytest
+
+from msg_adapters.message_types import rclpy_types
+from msg_adapters.table import to_columns
+
+STAND_IN = Path(__file__).parent / 'tf2_stand_in'
+USE_TF = ('use_tf:=true', 'tracking_frame:=map', 'scan.assembly:=snapshot')
+SPEED, TURN = 20.0, 0.02  # of the platform [m/s], [rad/s]
+CONTACT = np.array([9000.0, 4000.0])  # at rest in the map [m]
+
+
+@pytest.fixture
+def with_tf2(monkeypatch):
+    """Put the stand-in where nodes look for tf2_ros."""
+    monkeypatch.setenv('PYTHONPATH', str(STAND_IN), prepend=':')
+
+
+def where(stamp, start):
+    """Return position [m] and heading [rad] of the sensor: a turning ship."""
+    return np.array([SPEED * (stamp - start), -300.0]), TURN * (stamp - start)
+
+
+def transform(stamp, start):
+    """Return where the sensor's frame is in the map."""
+    (x, y), heading = where(stamp, start)
+    msg = TransformStamped(header=rclpy_types().header(stamp, 'map'), child_frame_id='radar')
+    msg.transform.translation.x, msg.transform.translation.y = float(x), float(y)
+    msg.transform.rotation.z, msg.transform.rotation.w = np.sin(heading / 2), np.cos(heading / 2)
+    return msg
+
+
+def plots(stamp, start):
+    """Return the contact as the radar sees it."""
+    place, heading = where(stamp, start)
+    x, y = CONTACT - place
+    azimuth = np.arctan2(y, x) - heading
+    return {'range': np.array([np.hypot(x, y)]), 'azimuth': np.array([azimuth])}
+
+
+def test_contact_at_rest_stands_still_in_the_map(with_tf2, start_node, probe):
+    """The sensor turns and moves; its transforms come after the plots, which wait for them."""
+    start_node(*USE_TF, 'tf_patience:=20.0')
+    transforms = probe.tell(TransformStamped, '/tf_stand_in')
+    probe.peer.wait_until_matched(transforms)
+    start = probe.stamp
+    for stamp in (start - 1.0, start + 2.0):
+        transforms.publish(transform(stamp, start))
+    probe.meet()
+    for step in range(10):
+        probe.stamp = start + 4.0 * (step + 1)
+        probe.send(plots(probe.stamp, start), probe.stamp)
+        transforms.publish(transform(probe.stamp - 2.0, start))
+        transforms.publish(transform(probe.stamp, start))
+        probe.spin_until(lambda: probe.is_answered(probe.stamp), 'tracks')
+    table = to_columns(probe.tables[-1], 9)
+    (row,) = np.flatnonzero(table['status'] == 1)
+    # Exact plots; what is left is the way of the transform between two that were sent.
+    assert np.hypot(table['x'][row] - CONTACT[0], table['y'][row] - CONTACT[1]) < 5.0
+    assert table['speed'][row] < 1.0
+    assert probe.tables[-1].header.frame_id == 'map'
+
+
+def test_plots_without_a_transform_are_dropped_in_time_and_told(with_tf2, start_node, probe):
+    """The wait is bounded; the reason names both frames and is counted."""
+    node = start_node(*USE_TF, 'tf_patience:=0.1')
+    probe.peer.wait_until_matched(probe.plots)
+    key = 'plots refused: no transform'
+
+    def is_told():
+        probe.stamp += 1.0
+        probe.send(plots(probe.stamp, probe.stamp), probe.stamp)
+        return probe.diagnosed(key) not in (None, '0')
+
+    probe.spin_until(is_told, key)
+    assert "no transform from 'radar' to 'map': \"radar\" passed to lookupTransform" in node.log
+    assert not probe.tables
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'words'),
+    [
+        (('use_tf:=true',), 'needs a tracking_frame'),
+        pytest.param(
+            USE_TF,
+            'tf2_ros is not installed',
+            marks=pytest.mark.skipif(find_spec('tf2_ros') is not None, reason='it is installed'),
+        ),
+    ],
+)
+def test_use_tf_that_cannot_be_is_refused_at_the_start(start_node, parameters, words):
+    """Nothing is promised that does not come."""
+    node = start_node(*parameters)
+    assert node.wait() == 1
+    assert words in node.log
+    assert 'Traceback' not in node.log
+
+
+def test_use_tf_and_a_mount_exclude_each_other(with_tf2, start_node):
+    """The mount would count twice."""
+    node = start_node(*USE_TF, 'sensor.mount.x:=3.0')
+    assert node.wait() == 1
+    assert 'tf2 knows the mount' in node.log
