@@ -81,8 +81,12 @@ def show(chosen: argparse.Namespace, demo: Demo) -> None:
     print('drawing ...', flush=True)
     print(demo.finish(recording, tracks, picture, configs, chosen.recording == demo.recording))
     where = (demo.sensor.kind, Topics.of(demo.sensor), recording, tracks)
-    load_page().report_replay(where, configs, taken, page)
-    print(f'page:    {page} (open it in a browser, press space)')
+    try:
+        load_page().report_replay(where, configs, taken, page)
+    except ModuleNotFoundError as error:
+        print(f'no page: {error}')
+    else:
+        print(f'page:    {page} (open it in a browser, press space)')
 
 
 def _remove_bag(path: Path) -> None:

@@ -128,7 +128,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         pages = load_page() if chosen.report is not None else None
         summary = replay(chosen.recording, chosen.output, configs, topics, chosen.quiet, sensor)
-    except (BadBag, OSError) as error:
+    except (BadBag, OSError, ModuleNotFoundError) as error:
         print(f'replay: {error}', file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -23,7 +23,7 @@ from tracking_tools.replay_topics import Topics
 from tracking_tools.report.columns import DARK, ellipses, encode, GREEN, lights, RED
 from tracking_tools.report.command import main
 from tracking_tools.report.material import gather, Sources
-from tracking_tools.report.page import page
+from tracking_tools.report.page import page, safe_json
 
 EVIL = '</script><script>window.hurt = 1</script><img src=x onerror="window.hurt = 2">'
 
@@ -100,6 +100,13 @@ def test_page_takes_nothing_recorded_for_markup(
     assert '<img' not in re.sub(r'<script.*?</script>', '', html, flags=re.DOTALL)
     assert '&lt;/script&gt;&lt;script&gt;window.hurt' in html
     assert len(columns_of(content_of(html)['tracks'])['id']) > 100
+
+
+def test_safe_json_cannot_end_its_script() -> None:
+    """Text that ends a script or opens a comment comes back as it was, but never stands there."""
+    text = safe_json({'name': f'{EVIL}<!--&'})
+    assert not set('<>&') & set(text)
+    assert json.loads(text) == {'name': f'{EVIL}<!--&'}
 
 
 def test_encode_keeps_every_value() -> None:

@@ -58,24 +58,34 @@ def html(cut_bag: Callable[[int], Path], tmp_path_factory: pytest.TempPathFactor
     return folder / 'page.html'
 
 
-@pytest.fixture
-def page(browser: Any, html: Path) -> Iterator[Any]:
-    """Yield the open page; what it complains about or asks the network for fails the test."""
+@pytest.fixture(scope='module')
+def opened(browser: Any, html: Path) -> Iterator[Any]:
+    """Yield the open page, with what it complained about and what it asked the network for."""
     tab = browser.new_page(viewport={'width': 1366, 'height': 768})
-    wrong: list[str] = []
-    tab.on('pageerror', lambda error: wrong.append(str(error)))
-    tab.on('console', lambda line: wrong.append(line.text) if line.type == 'error' else None)
+    tab.wrong = []
+    tab.on('pageerror', lambda error: tab.wrong.append(str(error)))
+    tab.on('console', lambda line: tab.wrong.append(line.text) if line.type == 'error' else None)
     tab.on('request', lambda asked: None if asked.url.startswith(('file:', 'data:', 'blob:'))
-           else wrong.append(asked.url))  # fmt: skip
+           else tab.wrong.append(asked.url))  # fmt: skip
     measure = tab.context.new_cdp_session(tab)
     measure.send('Performance.enable', {'timeDomain': 'threadTicks'})
     tab.goto(html.as_uri())
     tab.wait_for_selector('body[data-ready=true]', timeout=PATIENCE)
     values = measure.send('Performance.getMetrics')['metrics']
     tab.main_thread = {value['name']: value['value'] for value in values}['TaskDuration']
+    tab.begin_with = tab.evaluate('() => document.activeElement.id')
     yield tab
     tab.close()
-    assert not wrong
+
+
+@pytest.fixture
+def page(opened: Any) -> Iterator[Any]:
+    """Yield the page as it is at the beginning; an error or a request fails the test."""
+    opened.evaluate('() => document.getElementById("play").focus()')
+    opened.keyboard.press('Home')
+    opened.keyboard.press('Shift+ArrowRight')
+    yield opened
+    assert not opened.wrong
 
 
 def state(page: Any, name: str) -> Any:
@@ -119,6 +129,7 @@ def test_a_click_on_a_track_chooses_it(page: Any) -> None:
 
 def test_keys_step_choose_and_play(page: Any) -> None:
     """Arrows step scans and tracks, space plays and pauses, Home and End are the ends."""
+    page.keyboard.press('ArrowDown')
     page.keyboard.press('Home')
     first = state(page, 's.time')
     page.keyboard.press('ArrowRight')
@@ -143,7 +154,7 @@ def test_keys_step_choose_and_play(page: Any) -> None:
 
 def test_tab_reaches_every_control(page: Any) -> None:
     """Play, time, speed, layers, the choice of colours and the list come one after the other."""
-    assert page.evaluate('() => document.activeElement.id') == 'play'
+    assert page.begin_with == 'play'
     seen = []
     for _ in range(20):
         page.keyboard.press('Tab')

@@ -19,7 +19,7 @@ def load_page() -> Any:
 
     Raises
     ------
-    OSError
+    ModuleNotFoundError
         Where bokeh is missing, with the way to get it.
 
     """
@@ -28,4 +28,4 @@ def load_page() -> Any:
     except ModuleNotFoundError as error:
         if error.name != 'bokeh':
             raise
-        raise OSError('the page needs bokeh: pip install bokeh') from error
+        raise ModuleNotFoundError('a page needs bokeh: pip install bokeh') from error

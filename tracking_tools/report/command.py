@@ -26,7 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         configs = read_configs(chosen.params, {}, SENSORS[kind]) if chosen.params else None
         sources = Sources(kind, topics, chosen.tracks, chosen.plots, chosen.truth)
         load_page().write_page(gather(sources, configs, title=chosen.title), chosen.output)
-    except (ValueError, OSError, AnyReaderError) as error:
+    except (ValueError, OSError, AnyReaderError, ModuleNotFoundError) as error:
         print(f'report: {error}', file=sys.stderr)
         return 1
     print(f'{chosen.output}: open it in a browser')

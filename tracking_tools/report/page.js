@@ -4,14 +4,14 @@
 // Rows come sorted by track, then time. Text goes into the page as text only.
 'use strict';
 (async () => {
-  const MINUTE = 60, TRAIL = 90, NEAR = 26, FADE = 3;
+  const MINUTE = 60, TRAIL = 90, NEAR = 26, FADE = 3, SELDOM = 200;
   const byId = (id) => document.getElementById(id);
   const content = JSON.parse(byId('content').textContent);
   const tracks = decode(content.tracks), plots = decode(content.plots), truth = decode(content.truth);
   const scans = decode(content.scans).stamp, end = scans[scans.length - 1];
   const isPlan = content.kind === 'plan';
   const paths = split(tracks.id), truePaths = truth.id ? split(truth.id) : [];
-  const state = {time: scans[0], chosen: null, playing: false, rate: 30, shown: new Set()};
+  const state = {time: scans[0], chosen: null, playing: false, moved: 0, rate: 30, shown: new Set()};
 
   for (const [target, item] of Object.entries(content.figures)) await Bokeh.embed.embed_item(item, target);
   const models = {};
@@ -144,13 +144,21 @@
   function draw() {
     const t = state.time;
     drawTracks(t); drawPlots(t); drawTruth(t);
-    for (const [name, model] of Object.entries(models)) {
-      if (name.startsWith('cursor_')) model.location = t / MINUTE;
-    }
+    moveCursors(t);
     byId('time').value = t;
     byId('clock').textContent = clock(t);
     if (state.chosen && byId('follow').checked) follow(t);
     tellFacts(t);
+  }
+
+  // A cursor that moves has its whole figure drawn anew: seldom while everything moves.
+  function moveCursors(t) {
+    const now = performance.now();
+    if (state.playing && now - state.moved < SELDOM) return;
+    state.moved = now;
+    for (const [name, model] of Object.entries(models)) {
+      if (name.startsWith('cursor_') && (!state.playing || name !== 'cursor_gospa')) model.location = t / MINUTE;
+    }
   }
 
   // Show everything; a kilometre is as long in both directions.
@@ -255,7 +263,7 @@
   function play(on) {
     state.playing = on;
     byId('play').textContent = on ? '\u23F8' : '\u25B6';
-    if (!on) return;
+    if (!on) return draw();
     if (state.time >= end) state.time = scans[0];
     let last = performance.now();
     const tick = (now) => {
@@ -338,5 +346,7 @@
   choose(paths.filter((path) => rowNow(path, state.time) >= 0).sort((a, b) => b.end - b.first - a.end + a.first)[0] || null);
   byId('play').focus({preventScroll: true});
   window.contactTracks = {state, seek, choose, paths, models};  // for whoever wants to look closer
-  requestAnimationFrame(() => requestAnimationFrame(() => { document.body.dataset.ready = 'true'; }));
+  requestAnimationFrame(() => requestAnimationFrame(() => {  // painted
+    Object.assign(document.body.dataset, {ready: 'true', after: performance.now()});
+  }));
 })();

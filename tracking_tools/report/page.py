@@ -89,7 +89,7 @@ def page(material: Material) -> str:
         summary=escape(_summary(material, table)),
         style=parts.joinpath('page.css').read_text('utf-8'),
         bokeh=Resources(mode='inline', components=['bokeh'], log_level='error').render_js(),
-        data=_safe_json(_content(material, table)),
+        data=safe_json(_content(material, table)),
         script=parts.joinpath('page.js').read_text('utf-8'),
         metrics=metrics_part(material),
         contacts=contacts_part(material),
@@ -130,7 +130,7 @@ def _content(material: Material, table: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _safe_json(content: dict[str, Any]) -> str:
+def safe_json(content: dict[str, Any]) -> str:
     """Return JSON that no text in it can end or leave: no <, no & and no line separators."""
     text = json.dumps(content, separators=(',', ':'))
     return text.replace('<', '\\u003c').replace('>', '\\u003e').replace('&', '\\u0026')
