@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from radar_tracker.config import MountConfig, SensorConfig
+from radar_tracker.config import SensorConfig
 from radar_tracker.conversion import linearised, to_cartesian, to_polar
+from radar_tracker.mounting import platform_noise, PlatformDoubt, sensor_pose
 from tracking_core.batches import Coverage, Floats, Plots, Scan
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
@@ -22,6 +23,7 @@ class Radar:
     config: SensorConfig
     dimensions: int  # 2 or 3
     is_polar: bool
+    doubt: PlatformDoubt | None = None  # of the platform, in the message at hand
 
     @staticmethod
     def for_plots(config: SensorConfig, plots: Plots) -> Radar:
@@ -58,10 +60,15 @@ class Radar:
 
     def noise(self, position: Floats, coverage: Coverage) -> Floats:
         """Return the plot covariance (T, d, d) expected at positions (T, d) [m^2]."""
+        offset = position - np.array(coverage.sensor_position)[: self.dimensions]
+        own = self._own_noise(offset)
+        return own if self.doubt is None else own + self.doubt.noise(offset)
+
+    def _own_noise(self, offset: Floats) -> Floats:
+        """Return what the radar itself does not know (T, d, d) at offsets (T, d) from it [m^2]."""
         d, c = self.dimensions, self.config
         if not self.is_polar:
-            return np.broadcast_to(c.position_sd**2 * np.eye(d), (len(position), d, d))
-        offset = position - np.array(coverage.sensor_position)[:d]
+            return np.broadcast_to(c.position_sd**2 * np.eye(d), (len(offset), d, d))
         sd = np.broadcast_to([c.range_sd, c.azimuth_sd, c.elevation_sd][:d], offset.shape)
         return linearised(to_polar(offset), sd)[1]
 
@@ -122,10 +129,10 @@ class Radar:
         """
         d = self.dimensions
         local, covariance = self._local(plots)
-        turn, origin = _sensor_pose(pose, self.config.mount)
+        turn, origin = sensor_pose(pose, self.config.mount)
         position = (turn @ local[..., None])[..., 0] + origin
         covariance = turn @ covariance @ np.swapaxes(turn, 1, 2)
-        covariance = covariance + _platform_noise(pose, position - origin)
+        covariance = covariance + platform_noise(pose, position - origin)
         unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
         if d == 3:
             position[unknown, 2] = np.nan
@@ -171,22 +178,6 @@ class Radar:
         if self.dimensions == 2:
             return np.asarray(1.0 / ground)
         return np.asarray(1.0 / (np.hypot(ground, offset[:, 2]) * ground))  # 1/(r^2 cos elevation)
-
-
-def _sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats, Floats]:
-    """Return rotation (M, 3, 3) from sensor to tracking axes and the sensor's position (M, 3)."""
-    platform, c, s = pose.rotation, np.cos(mount.yaw), np.sin(mount.yaw)
-    turn = platform @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return turn, pose.position + platform @ np.array([mount.x, mount.y, mount.z])
-
-
-def _platform_noise(pose: PlatformPose, offset: Floats) -> Floats:
-    """Return what the platform's own uncertainty adds (M, 3, 3): its position and its heading."""
-    if not pose.yaw_variance.any():
-        return pose.position_covariance
-    across = np.stack([-offset[:, 1], offset[:, 0], np.zeros(len(offset))], axis=1)
-    swing = across[:, :, None] * across[:, None, :] * pose.yaw_variance[:, None, None]
-    return pose.position_covariance + swing
 
 
 def _or(values: Floats, default: float) -> Floats:

@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from radar_tracker.antenna import Antenna, Sweep, TWO_PI
+from radar_tracker.antenna import Antenna, TWO_PI
 from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import to_polar
+from radar_tracker.mounting import coverage_of, PlatformDoubt
 from radar_tracker.sensor import Radar
 from tracking_core.batches import Coverage, Floats, Plots, State, Tracks
 from tracking_core.platform import Platform, pose_at
@@ -137,8 +138,10 @@ class RadarTracker:
         if collected is None:
             return self.tracks
         pose = pose_at(platform, collected.time)
+        self._allow_for(PlatformDoubt.of(pose))
         sweep = self._antenna.follow(collected, self._azimuth(collected))
-        coverage = self._last_coverage = self._coverage(sweep, platform)
+        ends = pose_at(platform, np.array([sweep.start_time, sweep.end_time]))
+        coverage = self._last_coverage = coverage_of(sweep, ends, self.config.sensor)
         volume = self._radar.plot_space_volume(self._farthest or self.config.sensor.range_max)
         return self._tracker.step(self._radar.measure(collected, pose, coverage, volume))
 
@@ -154,6 +157,12 @@ class RadarTracker:
         flat = np.nan_to_num(plots.position[:, : self.dimensions])
         distance = plots.range if self._radar.is_polar else np.linalg.norm(flat, axis=1)
         self._farthest = max(self._farthest, float(distance.max()))
+
+    def _allow_for(self, doubt: PlatformDoubt | None) -> None:
+        """Open the gates for what own ship does not know of itself."""
+        if doubt is not self._radar.doubt:
+            self._radar = replace(self._radar, doubt=doubt)
+            self._tracker.setup = self._tracker.setup.with_sensor(self._radar)
 
     def _collect(self, plots: Plots) -> Plots | None:
         """Return the plots of a full turn when sectors are to be collected, or the message."""
@@ -175,23 +184,3 @@ class RadarTracker:
         if self._radar.is_polar:
             return plots.azimuth
         return to_polar(plots.position[:, :2])[:, 1]
-
-    def _coverage(self, sweep: Sweep, platform: Platform | None) -> Coverage:
-        """Turn what the antenna swept into the tracking frame."""
-        sensor = self.config.sensor
-        ends = pose_at(platform, np.array([sweep.start_time, sweep.end_time]))
-        heading = ends.yaw + sensor.mount.yaw
-        turn = float(np.angle(np.exp(1j * (heading[1] - heading[0]))))
-        x, y, z = ends.position[1] + [sensor.mount.x, sensor.mount.y, sensor.mount.z]
-        return Coverage(
-            start_time=sweep.start_time,
-            end_time=sweep.end_time,
-            start_azimuth=sweep.start_azimuth + float(heading[0]),
-            sweep=sweep.angle + turn if sweep.angle else 0.0,
-            contiguous=sweep.contiguous,
-            sensor_position=(float(x), float(y), float(z)),
-            range_min=sensor.range_min,
-            range_max=sensor.range_max,
-            sector_centre=sensor.sector_centre + float(heading[1]),
-            sector_width=sensor.sector_width,
-        )

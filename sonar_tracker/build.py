@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from sonar_tracker.config import SonarTrackerConfig
@@ -61,12 +59,6 @@ def _resolution(config: SonarTrackerConfig, sonar: Sonar) -> Resolution | None:
     return Resolution(
         sonar, rule.softness, rule.spread, rule.interference, rule.capture, rule.least_chance
     )
-
-
-def with_sensor(setup: Setup, sonar: Sonar) -> Setup:
-    """Return the same for another state of the sensor: filters keep what they have worked out."""
-    rule = setup.resolution and replace(setup.resolution, sensor=sonar)
-    return replace(setup, sensor=sonar, resolution=rule)
 
 
 def build_estimator(config: SonarTrackerConfig) -> Estimator:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from sonar_tracker.build import build_setup, with_sensor
+from sonar_tracker.build import build_setup
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.ranging import RangeEstimates, Ranging
 from sonar_tracker.sensor import Sonar
@@ -149,8 +149,8 @@ class SonarTracker:
         start, end = float(times.min()), float(times.max())
         pose = pose_at(platform, np.append(bearings.time, 0.5 * (start + end)))
         self._coverage = self._listen(pose, start, end)
-        self._expect(bearings)
         at_marks = take(pose, slice(0, -1))
+        self._expect(bearings, at_marks)
         tracks = self._tracker.step(self._sonar.measure(bearings, at_marks, self._coverage))
         if self.config.ranging.enabled and end > self._heard:
             self._heard = end
@@ -161,11 +161,12 @@ class SonarTracker:
         """Return what is known of range, course and speed of every track, row by row."""
         return self._ranging.estimates(self.tracks, self._coverage)
 
-    def _expect(self, bearings: Bearings) -> None:
-        """Open the gates for the least sure of these marks."""
+    def _expect(self, bearings: Bearings, pose: PlatformPose) -> None:
+        """Open the gates for the least sure of these marks, with the heading at its time."""
         if len(bearings):
-            self._sonar = Sonar(self.config.sensor, float(self._sonar.mark_sd(bearings).max()))
-            self._tracker.setup = with_sensor(self._tracker.setup, self._sonar)
+            sd = np.hypot(self._sonar.mark_sd(bearings), np.sqrt(pose.yaw_variance))
+            self._sonar = Sonar(self.config.sensor, float(sd.max()))
+            self._tracker.setup = self._tracker.setup.with_sensor(self._sonar)
 
     def _listen(self, pose: PlatformPose, start: float, end: float) -> Coverage:
         """Return what this cycle listens to, in the tracking frame; the last pose counts."""

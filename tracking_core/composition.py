@@ -4,15 +4,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 from tracking_core.association import Associator
 from tracking_core.batches import Floats, Mixture
 from tracking_core.estimators import Estimator, SeesFromSensor
 from tracking_core.lifecycle import Lifecycle
 from tracking_core.lifecycle_config import InitiationConfig, MergeConfig
-from tracking_core.resolution import Resolution
+from tracking_core.resolution import Resolution, Resolving
 from tracking_core.sensing import Sensor
 
 
@@ -39,6 +40,10 @@ class Plane:
         return self.estimator if isinstance(self.estimator, SeesFromSensor) else None
 
 
+class ResolvingSensor(Sensor, Resolving, Protocol):
+    """A sensor with all that any rule asks of it."""
+
+
 @dataclass(frozen=True)
 class Setup:
     """Sensor, filters and rules of one tracker."""
@@ -56,6 +61,11 @@ class Setup:
     merge: MergeConfig
     max_tracks: int
     resolution: Resolution | None = None  # None: every contact gives its own plot
+
+    def with_sensor(self, sensor: ResolvingSensor) -> Setup:
+        """Return the same for another state of the sensor: filters keep what they worked out."""
+        rule = self.resolution and replace(self.resolution, sensor=sensor)
+        return replace(self, sensor=sensor, resolution=rule)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,86 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where is the radar, how is it turned, and what does its platform not know of itself?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from radar_tracker.antenna import Sweep
+from radar_tracker.config import MountConfig, SensorConfig
+from tracking_core.batches import Coverage, Floats
+from tracking_core.platform import PlatformPose
+
+
+def sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats, Floats]:
+    """Return rotation (M, 3, 3) from sensor to tracking axes and the sensor's position (M, 3)."""
+    platform, c, s = pose.rotation, np.cos(mount.yaw), np.sin(mount.yaw)
+    turn = platform @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return turn, pose.position + platform @ np.array([mount.x, mount.y, mount.z])
+
+
+def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Coverage:
+    """Turn what the antenna swept into the tracking frame; `ends` are the first and last pose."""
+    heading = ends.yaw + sensor.mount.yaw
+    turn = float(np.angle(np.exp(1j * (heading[1] - heading[0]))))
+    x, y, z = sensor_pose(ends, sensor.mount)[1][1]
+    return Coverage(
+        start_time=sweep.start_time,
+        end_time=sweep.end_time,
+        start_azimuth=sweep.start_azimuth + float(heading[0]),
+        sweep=sweep.angle + turn if sweep.angle else 0.0,
+        contiguous=sweep.contiguous,
+        sensor_position=(float(x), float(y), float(z)),
+        range_min=sensor.range_min,
+        range_max=sensor.range_max,
+        sector_centre=sensor.sector_centre + float(heading[1]),
+        sector_width=sensor.sector_width,
+    )
+
+
+def platform_noise(pose: PlatformPose, offset: Floats) -> Floats:
+    """
+    Return what an unsure platform adds to the covariance of plots (M, 3, 3) [m^2].
+
+    Parameters
+    ----------
+    pose : PlatformPose
+        At the times of M plots.
+    offset : (M, 3) array
+        From the sensor to the plots, tracking axes [m].
+
+    """
+    if not pose.yaw_variance.any():
+        return pose.position_covariance
+    return pose.position_covariance + _swing(offset, pose.yaw_variance)
+
+
+def _swing(offset: Floats, yaw_variance: Floats) -> Floats:
+    """Return what an unsure heading does at these offsets (M, d), (M, d, d)."""
+    across = np.zeros_like(offset)
+    across[:, 0], across[:, 1] = -offset[:, 1], offset[:, 0]
+    return np.asarray(across[:, :, None] * across[:, None, :] * yaw_variance[:, None, None])
+
+
+@dataclass(frozen=True)
+class PlatformDoubt:
+    """What a platform does not know of itself, at the worst moment of a message."""
+
+    position_covariance: Floats  # (3, 3) [m^2]
+    yaw_variance: float  # [rad^2]
+
+    @staticmethod
+    def of(pose: PlatformPose) -> PlatformDoubt | None:
+        """Return the doubt in these poses, None if the platform admits none."""
+        if not (pose.position_covariance.any() or pose.yaw_variance.any()):
+            return None
+        worst = int(np.trace(pose.position_covariance, axis1=1, axis2=2).argmax())
+        return PlatformDoubt(pose.position_covariance[worst], float(pose.yaw_variance.max()))
+
+    def noise(self, offset: Floats) -> Floats:
+        """Return what it adds to the covariance of a plot at these offsets (T, d), (T, d, d)."""
+        T, d = offset.shape
+        swing = _swing(offset, np.full(T, self.yaw_variance))
+        return np.asarray(self.position_covariance[:d, :d] + swing)

@@ -1,0 +1,171 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""A radar on a ship that moves and turns, and that does not know everything of itself."""
+
+from dataclasses import replace
+import logging
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from msg_adapters.table import from_columns, to_columns
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.mounting import PlatformDoubt
+from radar_tracker.node_config import radar_node_config
+from radar_tracker.sensor import Radar
+from radar_tracker.session import radar_session
+from tracking_core.batches import Coverage, Plots
+from tracking_core.config import with_values
+from tracking_core.platform import PlatformPose
+
+pytest.importorskip('rosbags')
+TYPES = pytest.importorskip('msg_adapters.message_types').rosbags_types()
+PERIOD = 2.5  # of the antenna [s]
+BUOYS = np.array([[2000.0, 500.0], [-1500.0, 1800.0], [300.0, -2200.0], [900.0, 1600.0]])
+RANGE_SD, AZIMUTH_SD = 5.0, 0.002
+QUIET = {'motion.horizontal.acceleration_sd': [0.05, 1.0]}
+NOISE = {'sensor.range_sd': RANGE_SD, 'sensor.azimuth_sd': AZIMUTH_SD}
+
+
+def odometry(time, place, yaw, position_variance=0.0, yaw_variance=0.0):
+    """Return own ship, which lies still as far as the message tells: it must be interpolated."""
+    covariance = np.zeros(36)
+    covariance[[0, 7]], covariance[35] = position_variance, yaw_variance
+    x, y = (float(value) for value in place)
+    turn = TYPES.Quaternion(x=0.0, y=0.0, z=float(np.sin(yaw / 2)), w=float(np.cos(yaw / 2)))
+    pose = TYPES.Pose(position=TYPES.Point(x=x, y=y, z=0.0), orientation=turn)
+    zero = TYPES.Vector3(x=0.0, y=0.0, z=0.0)
+    return TYPES.Odometry(
+        header=TYPES.header(time, 'odom'),
+        child_frame_id='base_link',
+        pose=TYPES.PoseWithCovariance(pose=pose, covariance=covariance),
+        twist=TYPES.TwistWithCovariance(
+            twist=TYPES.Twist(linear=zero, angular=zero), covariance=np.zeros(36)
+        ),
+    )
+
+
+def circle(time):
+    """Return place and heading of a ship at 10 m/s that turns by 3 degrees a second."""
+    rate = np.radians(3.0)
+    yaw, radius = 0.5 + rate * time, 10.0 / rate
+    place = radius * np.stack([np.sin(yaw) - np.sin(0.5), np.cos(0.5) - np.cos(yaw)], axis=-1)
+    return place, yaw
+
+
+def seen(times, mount):
+    """Return range and azimuth of the buoys at their times from a radar on the circling ship."""
+    place, yaw = circle(times)
+    x, y, turned = mount
+    arm = Rotation.from_euler('z', yaw[:, None]).apply([x, y, 0.0])[:, :2]
+    offset = BUOYS - place - arm
+    azimuth = np.arctan2(offset[:, 1], offset[:, 0]) - yaw - turned
+    return np.hypot(*offset.T), np.angle(np.exp(1j * azimuth))
+
+
+def turn_of_antenna(number, mount, rng):
+    """Return the plots of one turn, each at the time when the antenna points at it."""
+    start = PERIOD * number
+    times = np.full(len(BUOYS), start)
+    for _ in range(10):  # where it points depends on when
+        _, azimuth = seen(times, mount)
+        times = start + PERIOD * (azimuth % (2.0 * np.pi)) / (2.0 * np.pi)
+    distance, azimuth = seen(times, mount)
+    order = np.argsort(times)
+    columns = {
+        'range': distance + RANGE_SD * rng.standard_normal(len(BUOYS)),
+        'azimuth': azimuth + AZIMUTH_SD * rng.standard_normal(len(BUOYS)),
+        'time': times - start,
+    }
+    plots = {name: values[order] for name, values in columns.items()}
+    return from_columns(plots, 1000.0 + start, 'radar', TYPES)
+
+
+@pytest.mark.parametrize('mount', [(0.0, 0.0, 0.0), (30.0, -8.0, 2.0)], ids=['bow', 'aside'])
+def test_plots_from_a_turning_ship_are_each_brought_to_their_own_time(mount):
+    """Buoys lie still within their noise; with one pose a turn they would move by 260 m."""
+    rng, names = np.random.default_rng(4), ('x', 'y', 'yaw')
+    values = {f'sensor.mount.{name}': value for name, value in zip(names, mount, strict=True)}
+    config = with_values(RadarTrackerConfig(), {**NOISE, **QUIET, **values})
+    radar = radar_session(config, radar_node_config(), TYPES, logging.getLogger('own ship'))
+    for number in range(40):
+        for time in PERIOD * number + np.arange(0.1 if number else 0.0, PERIOD + 0.05, 0.1):
+            place, yaw = circle(np.array(time))
+            radar.ownship(odometry(1000.0 + time, place, yaw), 0.0)
+        table = to_columns(radar.plots(turn_of_antenna(number, mount, rng), 0.0), 100)
+    rows = table['status'] == 1
+    assert rows.sum() == len(BUOYS)
+    apart = np.hypot(*(np.stack([table['x'], table['y']])[:, rows, None] - BUOYS.T[:, None]))
+    assert apart.min(axis=0).max() < 10.0  # three sigma of a plot is 15 m
+    assert table['speed'][rows].max() < 1.0
+
+
+def poses(position_covariance, yaw_variance, yaw):
+    """Return a platform that is turned by `yaw` at the times of three plots."""
+    turn = Rotation.from_euler('z', np.full((3, 1), yaw)).as_quat()
+    return PlatformPose(
+        position=np.tile([100.0, -50.0, 0.0], (3, 1)),
+        orientation=turn,
+        velocity=np.zeros((3, 3)),
+        position_covariance=np.tile(position_covariance, (3, 1, 1)),
+        yaw_variance=np.full(3, yaw_variance),
+    )
+
+
+def test_covariance_of_own_ship_is_in_that_of_the_plots():
+    """Oracle: the spread of a plot when range, azimuth, place and heading are all drawn anew."""
+    rng, draws = np.random.default_rng(2), 200_000
+    config = with_values(RadarTrackerConfig(), NOISE).sensor
+    radar, place = Radar(config, 2, is_polar=True), np.array([[400.0, 90.0], [90.0, 100.0]])
+    full = np.zeros((3, 3))
+    full[:2, :2], yaw, yaw_sd = place, 0.7, 0.01
+    plots = Plots.polar(np.zeros(3), np.array([3000.0, 900.0, 5000.0]), np.array([0.3, 2.0, -1.0]))
+    pose = poses(full, yaw_sd**2, yaw)
+    scan = radar.measure(plots, pose, Coverage(0.0, 0.0), 1.0)
+    for row in range(3):
+        angle = plots.azimuth[row] + AZIMUTH_SD * rng.standard_normal(draws)
+        angle += yaw + yaw_sd * rng.standard_normal(draws)
+        distance = plots.range[row] + RANGE_SD * rng.standard_normal(draws)
+        at = distance * np.stack([np.cos(angle), np.sin(angle)])
+        at += rng.multivariate_normal(np.zeros(2), place, draws).T
+        spread = np.cov(at)
+        # 200,000 draws know a variance to 0.3 %; the rest is the bend of the noise.
+        np.testing.assert_allclose(
+            scan.covariance[row], spread, rtol=0.03, atol=0.01 * spread.max()
+        )
+    expected = replace(radar, doubt=PlatformDoubt.of(pose)).noise(
+        scan.position, Coverage(0.0, 0.0, sensor_position=(100.0, -50.0, 0.0))
+    )
+    np.testing.assert_allclose(expected, scan.covariance, rtol=1e-9)
+
+
+def test_tracks_of_an_unsure_ship_keep_their_plots_and_are_honest():
+    """Own ship is off by 100 m anew in each message: no look is lost, no error is hidden."""
+    rng = np.random.default_rng(1)
+    values = {**NOISE, **QUIET, 'scan.assembly': 'snapshot'}
+    config = with_values(RadarTrackerConfig(), values)
+    node_config = replace(radar_node_config(), ownship_timeout=3.0)
+    radar = radar_session(config, node_config, TYPES, logging.getLogger('own ship'))
+    coasted, errors = [], []
+    for number in range(150):
+        time, where = 1000.0 + PERIOD * number, np.array([0.0, 5.0 * PERIOD * number])
+        radar.ownship(odometry(time, where + rng.normal(0.0, 100.0, 2), 0.0, 100.0**2), 0.0)
+        offset = BUOYS - where
+        columns = {
+            'range': np.hypot(*offset.T) + rng.normal(0.0, RANGE_SD, 4),
+            'azimuth': np.arctan2(offset[:, 1], offset[:, 0]) + rng.normal(0.0, AZIMUTH_SD, 4),
+        }
+        table = to_columns(radar.plots(from_columns(columns, time, 'radar', TYPES), 0.0), 100)
+        if number < 30:
+            continue
+        rows = table['status'] == 1
+        coasted.append(table['coasted'][rows])
+        at, P = np.stack([table['x'], table['y']], axis=1)[rows], table['covariance'][rows]
+        apart = at[:, None] - BUOYS
+        error = apart[np.arange(len(at)), np.hypot(*apart.T).T.argmin(axis=1)]
+        P = P.reshape(-1, 6, 6)[:, :2, :2]
+        errors.append(np.einsum('ti,tij,tj->t', error, np.linalg.inv(P), error) / 2.0)
+    assert table['id'].max() == len(BUOYS)  # nobody was lost and found again
+    assert np.concatenate(coasted).mean() < 0.03  # 13 % with gates for the radar's noise alone
+    assert 0.3 < np.concatenate(errors).mean() < 1.5

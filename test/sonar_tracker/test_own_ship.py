@@ -1,0 +1,64 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""A sonar on a ship that turns, and that does not know its heading well."""
+
+import numpy as np
+
+from sonar_tracker.config import SensorConfig, SonarTrackerConfig
+from sonar_tracker.sensor import Sonar
+from sonar_tracker.tracker import SonarTracker
+from tracking_core.batches import Bearings, Coverage
+from tracking_core.config import with_values
+from tracking_core.platform import Platform
+
+RATE = 0.05  # rad/s, to port
+
+
+def turning(yaw_variance):
+    """Return samples of a ship that turns, every half second."""
+    time = np.arange(0.0, 10.0, 0.5)
+    half = 0.5 * RATE * time
+    nothing = np.zeros(len(time))
+    return Platform(
+        time=time,
+        position=np.zeros((len(time), 3)),
+        orientation=np.stack([nothing, nothing, np.sin(half), np.cos(half)], axis=1),
+        velocity=np.zeros((len(time), 3)),
+        position_covariance=np.zeros((len(time), 3, 3)),
+        yaw_variance=np.full(len(time), yaw_variance),
+    )
+
+
+def test_bearings_of_a_turning_ship_take_heading_and_its_doubt_at_their_own_time():
+    """Between the samples the heading is turned evenly; variances of mark and heading add."""
+    times, sd = np.array([1.1, 4.7, 9.3]), 0.01
+    marks = Bearings.of(times, np.full(3, 0.3), bearing_sd=np.full(3, sd))
+    pose = turning(yaw_variance=0.02**2).at(times)
+    scan = Sonar(SensorConfig()).measure(marks, pose, Coverage(0.0, 10.0))
+    np.testing.assert_allclose(scan.position[:, 0], 0.3 + RATE * times, atol=1e-9)
+    np.testing.assert_allclose(scan.covariance[:, 0, 0], sd**2 + 0.02**2, rtol=1e-12)
+
+
+def test_gates_allow_for_the_doubt_of_the_heading():
+    """The heading is off by 2 degrees anew in each cycle: hardly a look is lost."""
+    rng, doubt = np.random.default_rng(3), np.radians(2.0)
+    config = with_values(SonarTrackerConfig(), {'sensor.bearing_sd': 0.002})
+    sonar, true = SonarTracker(config), np.array([-2.0, -0.5, 0.4, 1.9])
+    misses = []
+    for cycle in range(120):
+        time = np.array([4.0 * cycle])
+        half = 0.5 * rng.normal(0.0, doubt)
+        ship = Platform(
+            time=time,
+            position=np.zeros((1, 3)),
+            orientation=np.array([[0.0, 0.0, np.sin(half), np.cos(half)]]),
+            velocity=np.zeros((1, 3)),
+            position_covariance=np.zeros((1, 3, 3)),
+            yaw_variance=np.full(1, doubt**2),
+        )
+        marks = Bearings.of(np.repeat(time, 4), true + 0.002 * rng.standard_normal(4))
+        tracks = sonar.track(marks, ship)
+        if cycle >= 30:
+            misses.append(tracks.misses[tracks.confirmed] > 0)
+    assert tracks.confirmed.sum() == 4
+    assert np.concatenate(misses).mean() < 0.03
