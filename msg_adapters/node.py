@@ -118,9 +118,19 @@ def take_waiting(subscription: Any) -> list[tuple[Any, Any]]:
 
 def advertise(node: Any, kind: Any, topic: str) -> Any:
     """Return a lifecycle publisher that any subscriber can hear; users may override its QoS."""
-    qos = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
-    options = QoSOverridingOptions.with_default_policies()
-    return node.create_lifecycle_publisher(kind, topic, qos, qos_overriding_options=options)
+    return node.create_lifecycle_publisher(kind, topic, **_output())
+
+
+def advertise_always(node: Any, kind: Any, topic: str) -> Any:
+    """Return a publisher like that of `advertise`, but of a node in any state."""
+    return node.create_publisher(kind, topic, **_output())
+
+
+def _output() -> dict[str, Any]:
+    return {
+        'qos_profile': QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
+        'qos_overriding_options': QoSOverridingOptions.with_default_policies(),
+    }
 
 
 def steady_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 import math
 
 from msg_adapters.session import Session
@@ -27,18 +29,34 @@ class Health:
 
     def level(self, session: Session, now: float) -> tuple[str, str]:
         """Return level and message: what is worst at the moment."""
-        if now - max(self.plots_at, self.started) > QUIET:
-            return 'WARN', f'no {session.instrument.topic}'
-        crowded = [topic for topic, count in session.counts.items() if count.publishers > 1]
-        if session.counts[session.instrument.topic].shed > self._shed:
-            return 'WARN', f'too slow: only the newest {session.instrument.topic} are used'
+        warnings = chain(self._silences(session, now), self._warnings(session))
+        worst = next(warnings, None)
+        return ('WARN', worst) if worst else ('OK', 'tracking')
+
+    def _silences(self, session: Session, now: float) -> Iterator[str]:
+        """Yield which inputs have stopped coming."""
+        silent = now - max(self.plots_at, self.started)
+        if silent > QUIET:
+            yield f'no {session.instrument.topic} for {silent:.0f} s'
+        if session.whereabouts.transforms is not None:
+            return  # tf2 tells
+        alone = now - max(self.ownship_at, self.started)
+        patience = max(QUIET, session.whereabouts.platform.max_extrapolation)
+        if session.instrument.uses_platform(session.frame) and alone > patience:
+            yield f'no ownship for {alone:.0f} s'
+
+    def _warnings(self, session: Session) -> Iterator[str]:
+        """Yield what is wrong with the inputs that come."""
+        topic = session.instrument.topic
+        if session.counts[topic].shed > self._shed:
+            yield f'too slow: only the newest {topic} are used'
+        crowded = [name for name, count in session.counts.items() if count.publishers > 1]
         if crowded:
-            return 'WARN', f'several publishers on {" and ".join(crowded)}'
+            yield f'several publishers on {" and ".join(crowded)}'
         if len(session.tracks) >= NEAR_CAPACITY * session.instrument.tracker.config.max_tracks:
-            return 'WARN', 'close to max_tracks'
+            yield 'close to max_tracks'
         if _complaints(session) > self._complaints:
-            return 'WARN', 'input refused, dropped or lost'
-        return 'OK', 'tracking'
+            yield 'input refused, dropped or lost'
 
     def told(self, session: Session) -> None:
         """Take note that complaints up to now have been reported."""

@@ -9,7 +9,13 @@ from contextlib import ExitStack
 from typing import Any
 
 from msg_adapters.live.transforms import TfTransforms
-from msg_adapters.node import advertise, on_clock_going_back, steady_timer, subscribe
+from msg_adapters.node import (
+    advertise,
+    advertise_always,
+    on_clock_going_back,
+    steady_timer,
+    subscribe,
+)
 
 Callback = Callable[..., Any]
 
@@ -34,9 +40,7 @@ class Openings:
 
     def tell_always(self, kind: Any, topic: str) -> Any:
         """Return a publisher of a node in any state."""
-        return self._keep(
-            self._node.create_publisher(kind, topic, 10), self._node.destroy_publisher
-        )
+        return self._keep(advertise_always(self._node, kind, topic), self._node.destroy_publisher)
 
     def serve(self, kind: Any, name: str, callback: Callback) -> None:
         """Offer a service."""

@@ -4,9 +4,12 @@
 
 from nav_msgs.msg import Odometry
 import numpy as np
+import pytest
 from rosgraph_msgs.msg import Clock
 
 from msg_adapters.message_types import rclpy_types
+from msg_adapters.table import to_columns
+from tracking_tools.testing import confirmed_ids
 
 SPEED = 15.0  # m/s of own ship, to the north
 
@@ -28,27 +31,96 @@ def beside(stamp, since):
     return {'range': np.array([distance], np.float32), 'azimuth': np.array([azimuth], np.float32)}
 
 
-def test_plots_of_a_moving_sensor_are_tracked_in_the_frame_of_its_odometry(start_node, probe):
-    """A buoy lies still in the tracking frame, whatever the ship does."""
+@pytest.fixture
+def sail(start_node, probe):
+    """Start a node whose own ship is known; return it with a function that sends a scan."""
     node = start_node(
         'ownship_timeout:=5.0',
         'qos_overrides./ownship.subscription.reliability:=reliable',
         'sensor.azimuth_sd:=0.001',
     )
-    ownship = probe.node.create_publisher(Odometry, 'ownship', 50)
+    ownship = probe.tell(Odometry, 'ownship')
     probe.meet()
-    probe.spin_until(ownship.get_subscription_count)
+    probe.peer.wait_until_matched(ownship)
     since = probe.stamp
-    ownship.publish(odometry(probe.stamp, since))
+    ownship.publish(odometry(since, since))
     node.wait_for_line("the tracking frame is 'odom'")
+
+    def send(step=2.0, with_ship=True):
+        probe.stamp += step
+        if with_ship:
+            ownship.publish(odometry(probe.stamp, since))
+        probe.send(beside(probe.stamp, since), probe.stamp)
+
+    def scan():
+        send()
+        probe.spin_until(lambda: probe.is_answered(probe.stamp), 'tracks')
+        return to_columns(probe.tables[-1], 100)
+
+    return node, send, scan
+
+
+def test_plots_of_a_moving_sensor_are_tracked_in_the_frame_of_its_odometry(sail, probe):
+    """A buoy lies still in the tracking frame, whatever the ship does."""
+    _, _, scan = sail
     for _ in range(12):
-        probe.stamp += 2.0
-        ownship.publish(odometry(probe.stamp, since))
-        table = probe.answer(beside(probe.stamp, since))
+        table = scan()
     assert probe.tables[-1].header.frame_id == 'odom'
     (row,) = np.flatnonzero(table['status'] == 1)
     assert np.hypot(table['x'][row] - 5000.0, table['y'][row] - 1000.0) < 100.0
     assert table['speed'][row] < 5.0
+
+
+def test_own_ship_that_stops_is_told_and_may_come_back(sail, probe):
+    """Plots that nobody can place are refused, counted and said; then the same track goes on."""
+    node, send, scan = sail
+    for _ in range(12):
+        before = confirmed_ids(scan())
+    send(6.0, with_ship=False)
+    send(with_ship=False)
+    probe.spin_until(lambda: probe.diagnosed('plots refused: own ship stale') == '2', 'count')
+    line = node.wait_for_line('plots message refused')
+    assert '6 s away from the samples of the platform, limit 5 s' in line
+    assert probe.diagnostics[-1].status[0].message == 'input refused, dropped or lost'
+    assert confirmed_ids(scan()) == before
+
+
+def test_recording_with_own_ship_that_begins_anew_resets_once(sail, probe):
+    """Own ship and plots go back together: one warning, one jump, and tracks again."""
+    node, send, scan = sail
+    begin = probe.stamp
+    for _ in range(12):
+        before = confirmed_ids(scan())
+    probe.stamp = begin
+    for _ in range(6):  # own ship is believed after three messages, then the plots
+        send()
+    node.wait_for_line('began anew?')
+    for _ in range(12):
+        table = scan()
+    assert len(confirmed_ids(table)) == 1
+    assert not confirmed_ids(table) & before
+    assert node.log.count('began anew?') == 1
+    probe.spin_until(lambda: probe.diagnosed('clock jumps') == '1', 'clock jumps')
+
+
+def test_tracking_frame_and_mount_place_a_sensor_that_stands(start_node, probe):
+    """The tracks are in the frame asked for; a third one is refused with both names."""
+    node = start_node(
+        'tracking_frame:=map', 'sensor.mount.x:=1000.0', 'sensor.mount.y:=-400.0',
+        f'sensor.mount.yaw:={0.5 * np.pi}',
+    )  # fmt: skip
+    probe.meet()
+    table = probe.confirmed()
+    assert probe.tables[-1].header.frame_id == 'map'
+    plots = probe.sensor.contacts(probe.stamp)
+    east = 1000.0 - plots['range'] * np.sin(plots['azimuth'])
+    north = -400.0 + plots['range'] * np.cos(plots['azimuth'])
+    rows = table['status'] == 1
+    apart = np.hypot(table['x'][rows, None] - east, table['y'][rows, None] - north)
+    assert apart.min(axis=0).max() < 500.0  # they fly 150 m/s, and are as of their last look
+    probe.stamp += 1.0
+    probe.send(plots, probe.stamp, 'masthead')
+    assert "'masthead', expected 'radar'" in node.wait_for_line('plots message refused')
 
 
 def test_clock_that_goes_back_begins_anew_at_once(start_node, probe):

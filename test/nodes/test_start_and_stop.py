@@ -67,14 +67,6 @@ def test_unknown_parameter_is_warned_about_with_the_nearest_name(start_node):
     assert 'did you mean gate.probability?' in line
 
 
-def test_silence_is_explained(start_node, sensor):
-    """After some seconds without input the node says what it waits for."""
-    node = start_node()
-    line = node.wait_for_line(f'nothing has come on /{sensor.topic}')
-    assert 'sensor_msgs/msg/PointCloud2' in line
-    assert 'nobody publishes there' in line
-
-
 @radar_only
 def test_live_parameter_is_described_checked_and_followed(start_node, probe):
     """A live parameter takes an int, refuses nonsense; a structural one cannot be set."""

@@ -1,0 +1,107 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whoever speaks or listens, reliably or not, is connected, and a silence is explained."""
+
+import numpy as np
+import pytest
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import PointCloud2
+
+BEST_EFFORT, RELIABLE = ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE
+INPUTS = ('/plots', '/ownship', '/acquire', '/cancel')
+OUTPUTS = (
+    '/radar_tracker/tracks', '/radar_tracker/odometry', '/radar_tracker/markers', '/diagnostics',
+)  # fmt: skip
+
+
+@pytest.fixture
+def sensor(request, radar, sonar):
+    """Return the radar, or the sonar for tests that say so."""
+    return sonar if getattr(request, 'param', '') == 'sonar' else radar
+
+
+def own_ends(probe, topic):
+    """Return the QoS of the tracker's own ends of a topic."""
+    graph, name = probe.node, probe.sensor.node
+    ends = [
+        *graph.get_publishers_info_by_topic(topic),
+        *graph.get_subscriptions_info_by_topic(topic),
+    ]
+    return [end.qos_profile.reliability for end in ends if end.node_name == name]
+
+
+@pytest.mark.parametrize('sensor', ['radar', 'sonar'], indirect=True)
+def test_best_effort_and_reliable_peers_connect_on_either_side(start_node, probe, sensor):
+    """Plots of both kinds of publisher are tracked, both kinds of subscriber hear the tracks."""
+    start_node()
+    hasty = []
+    best_effort = QoSProfile(depth=50, reliability=BEST_EFFORT)
+    driver = probe.node.create_publisher(PointCloud2, sensor.topic, best_effort)
+    viewer = probe.node.create_subscription(
+        PointCloud2, f'{sensor.node}/tracks', hasty.append, best_effort
+    )
+    probe.meet()
+    probe.peer.wait_until_matched(driver, viewer)
+    reliable = probe.plots
+    for turn in range(6):
+        probe.plots = (driver, reliable)[turn % 2]
+        probe.scan()  # answers to the reliable subscriber
+        probe.spin_until(lambda: hasty[-1:] == probe.tables[-1:], 'the best-effort one')
+    probe.plots = reliable
+
+
+def test_qos_overrides_hold_on_every_topic(start_node, probe):
+    """A user decides for each topic, by parameter."""
+    overrides = [f'qos_overrides.{t}.subscription.reliability:=reliable' for t in INPUTS]
+    overrides += [f'qos_overrides.{t}.publisher.reliability:=best_effort' for t in OUTPUTS]
+    node = start_node(*overrides)
+    probe.spin_until(lambda: all(own_ends(probe, t) for t in (*INPUTS, *OUTPUTS)), 'topics')
+    assert {policy for t in INPUTS for policy in own_ends(probe, t)} == {RELIABLE}
+    assert {policy for t in OUTPUTS for policy in own_ends(probe, t)} == {BEST_EFFORT}
+    assert 'no parameter' not in node.log
+
+
+def test_silence_is_explained_with_the_publishers_and_their_qos(start_node, probe):
+    """A driver that cannot be heard: who it is, and both sides' QoS, in log and diagnostics."""
+    node = start_node('qos_overrides./plots.subscription.reliability:=reliable')
+    best_effort = QoSProfile(depth=5, reliability=BEST_EFFORT)
+    driver = probe.node.create_publisher(PointCloud2, 'plots', best_effort)
+    line = node.wait_for_line('nothing has come on /plots')
+    assert 'sensor_msgs/msg/PointCloud2, reliable' in line
+    assert 'publishers there: ' in line
+    assert 'probe (sensor_msgs/msg/PointCloud2, best effort, volatile)' in line
+    probe.spin_until(
+        lambda: any(
+            m.status[0].message in {f'no plots for {s} s' for s in range(5, 30)}
+            for m in probe.diagnostics
+        ),
+        'diagnostics',
+    )
+    probe.node.destroy_publisher(driver)
+    assert node.log.count('nothing has come on') == 1
+
+
+@pytest.mark.parametrize('sensor', ['sonar'], indirect=True)
+def test_silence_without_any_publisher_is_explained(start_node, sensor):
+    """The node says what it waits for, and that nobody is there."""
+    node = start_node()
+    line = node.wait_for_line(f'nothing has come on /{sensor.topic}')
+    assert 'sensor_msgs/msg/PointCloud2' in line
+    assert 'nobody publishes there' in line
+
+
+def test_latency_and_losses_are_in_the_diagnostics(start_node, probe):
+    """From arrival to tracks in seconds, and messages that the transport has lost."""
+    start_node('qos_overrides./plots.subscription.depth:=1')
+    probe.meet()
+    probe.scan()
+    probe.spin_until(lambda: probe.diagnosed('latency [s]') not in (None, 'nan'), 'latency')
+    assert 0.0 < float(probe.diagnosed('latency [s]')) < 10.0
+    noise = {name: np.zeros(5000, np.float32) for name in ('range', 'azimuth')}
+    for _ in range(200):  # faster than anybody reads
+        probe.stamp += 0.01
+        probe.send(noise, probe.stamp)
+    probe.spin_until(lambda: int(probe.diagnosed('plots lost')) > 0, 'a gap')
+    probe.spin_until(
+        lambda: any(m.status[0].message.startswith('input refused') for m in probe.diagnostics)
+    )
