@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from msg_adapters.bad_message import BadMessage
+from msg_adapters.bad_message import BadMessage, shown
 
 WAYS_OUT = (
     'give the odometry of the platform on the topic ownship, or say with sensor.mount.* where the '
@@ -99,7 +99,7 @@ class TrackingFrame:
 
     def _learn(self, frame: str, why: str) -> None:
         self.name, self.learnt = frame, True
-        self.announce(f"the tracking frame is '{frame}', {why} (tracking_frame is empty)")
+        self.announce(f"the tracking frame is '{shown(frame)}', {why} (tracking_frame is empty)")
 
     def check_point(self, frame: str) -> None:
         """Accept a position that a user points at, or raise BadMessage."""

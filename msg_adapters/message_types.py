@@ -18,6 +18,8 @@ from typing import Any
 
 import numpy as np
 
+from msg_adapters.bad_message import BadMessage
+
 NANOSECONDS = 1_000_000_000
 
 
@@ -74,6 +76,22 @@ _PACKAGES = {
 def seconds(stamp: Any) -> float:
     """Return a message's time or duration [s]."""
     return float(stamp.sec + stamp.nanosec * 1e-9)
+
+
+def stamp_of(msg: Any) -> float:
+    """
+    Return when a message says that it was made [s].
+
+    Raises
+    ------
+    BadMessage
+        For nanoseconds that are more than a second.
+
+    """
+    stamp = msg.header.stamp
+    if not 0 <= stamp.nanosec < NANOSECONDS:
+        raise BadMessage('bad stamp', f'header.stamp.nanosec is {stamp.nanosec}, not below 10^9')
+    return seconds(stamp)
 
 
 @cache

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from msg_adapters.bad_message import BadMessage
-from msg_adapters.message_types import seconds
+from msg_adapters.message_types import stamp_of
 from tracking_core.batches import Floats
 from tracking_core.platform import Platform
 
@@ -27,7 +27,7 @@ def to_platform(msg: Any) -> Platform:
     Raises
     ------
     BadMessage
-        For a pose or twist that is not finite, or an orientation that is none.
+        For a pose or twist that is not finite, or an orientation or a stamp that is none.
 
     """
     pose, twist = msg.pose.pose, msg.twist.twist
@@ -46,7 +46,7 @@ def to_platform(msg: Any) -> Platform:
     if not (np.isfinite(covariance).all() and (diagonal >= 0.0).all()):
         covariance = np.zeros((6, 6))
     return Platform(
-        time=np.array([seconds(msg.header.stamp)]),
+        time=np.array([stamp_of(msg)]),
         position=position[None],
         orientation=orientation[None] / length,
         velocity=Rotation.from_quat(orientation).apply(velocity)[None],

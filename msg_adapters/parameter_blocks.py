@@ -13,13 +13,20 @@ from typing import Any
 import yaml
 
 LEAF = 'ros__parameters'
+LONGEST = 1_000_000  # characters of a file
 _WILDCARDS = {'/**': '(/[^/]+)*', '/*': '/[^/]+'}
 
 Block = tuple[str, Mapping[Any, Any]]  # name or pattern of its nodes, its parameters
 
 
 class Loader(yaml.SafeLoader):
-    """YAML as rcl reads it: 1e5 is a number."""
+    """YAML as rcl reads it: 1e5 is a number, and there are no aliases, which could grow a file."""
+
+    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        """Return the next node; an alias is refused."""
+        if self.check_event(yaml.AliasEvent):
+            raise yaml.YAMLError('aliases (*name) are not for parameter files')
+        return super().compose_node(parent, index)
 
 
 Loader.add_implicit_resolver(
@@ -42,10 +49,10 @@ def read_blocks(path: Path | str) -> list[Block]:
 
     """
     try:
-        document = yaml.load(Path(path).read_text(encoding='utf-8'), Loader)
+        document = yaml.load(_text_of(Path(path)), Loader)
     except (OSError, UnicodeDecodeError) as error:
         raise BadParameterFile(f'{path} cannot be read: {error}') from error
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError, RecursionError) as error:  # 2001-99-99 is a ValueError
         raise BadParameterFile(f'{path} is not YAML: {error}') from error
     if not isinstance(document, dict):
         raise BadParameterFile(f"{path}: expected '/**: {LEAF}: name: value'")
@@ -53,6 +60,14 @@ def read_blocks(path: Path | str) -> list[Block]:
     if not blocks:
         raise BadParameterFile(f"{path}: no '{LEAF}:' in it; expected '/**: {LEAF}: name: value'")
     return blocks
+
+
+def _text_of(path: Path) -> str:
+    with path.open(encoding='utf-8') as file:
+        text = file.read(LONGEST + 1)
+    if len(text) > LONGEST:
+        raise OSError(f'more than {LONGEST} characters')
+    return text
 
 
 def _blocks(tree: Mapping[Any, Any], name: str) -> Iterator[Block]:

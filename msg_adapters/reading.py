@@ -13,7 +13,7 @@ import numpy as np
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import find_fields, Names
 from msg_adapters.kinds.menu import columns_of
-from msg_adapters.message_types import NANOSECONDS, seconds
+from msg_adapters.message_types import NANOSECONDS, stamp_of
 from msg_adapters.row_checks import OUT_OF_RANGE
 from msg_adapters.table import Columns
 from tracking_core.batches import Bearings, Bools, Floats, Plots
@@ -63,7 +63,7 @@ def read_fields(msg: Any, max_rows: int, names: Names, overrides: Mapping[str, s
     columns = columns_of(msg, max_rows)
     mapping = find_fields(columns, names, overrides)
     values = {ours: _numbers(columns, theirs) for ours, theirs in mapping.items()}
-    stamp = seconds(msg.header.stamp)
+    stamp = stamp_of(msg)
     rows = len(next(iter(columns.values()))) if columns else msg.width * msg.height
     offset = _offset(values, columns, mapping, stamp, rows)
     return Fields(columns, mapping, values, stamp, stamp + offset, msg.header.frame_id.lstrip('/'))

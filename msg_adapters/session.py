@@ -11,8 +11,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.diagnostics import InputCount
 from msg_adapters.frames import TrackingFrame
@@ -23,6 +21,7 @@ from msg_adapters.ledger import Ledger, Log
 from msg_adapters.message_types import MessageTypes, seconds
 from msg_adapters.node_config import NodeConfig
 from msg_adapters.ownship import to_platform
+from msg_adapters.points import to_position
 from msg_adapters.reading import Reading
 from msg_adapters.stamp_guard import StampGuard
 from msg_adapters.whereabouts import Transforms, Whereabouts
@@ -177,13 +176,12 @@ class Session:
     def acquire(self, msg: Any) -> None:
         """Start a track where a user points."""
         try:
-            position = np.array([msg.point.x, msg.point.y, msg.point.z])
             if self.stamp is None:
                 raise BadMessage('no scan yet', f'no {self.instrument.topic} have come yet')
-            self.frame.check_point(msg.header.frame_id.lstrip('/'))
-            if not (np.abs(position) <= self.instrument.reach).all():
-                far = f'point is {position}, farther than {self.instrument.reach:g} m'
-                raise BadMessage('bad point', far)
+            position = to_position(msg, self.frame, self.instrument.reach)
+            most = self.instrument.tracker.config.max_tracks
+            if len(self.tracks) >= most:
+                raise BadMessage('no room', f'there are {most} tracks already (max_tracks)')
             track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
             self._follower.history.close()
             self._log.info(f'track {track_id} started at {position} m')

@@ -28,7 +28,7 @@ def to_cartesian(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
         [m]
     covariance : (M, d, d) array
         Linearised at the plot, J diag(sd^2) J^T; for plots with r s^2 / s_r > 0.4 both are those
-        of the unbiased conversion.
+        of the unbiased conversion, and where J is singular the covariance is `blurred`.
 
     References
     ----------
@@ -40,7 +40,29 @@ def to_cartesian(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
     bent = polar[:, 0] * angle_sd**2 > BIAS_LIMIT * sd[:, 0]
     if bent.any():
         position[bent], covariance[bent] = unbiased(polar[bent], sd[bent])
+    near = (polar[:, 0] < sd[:, 0]) | (np.cos(_columns(polar)[2]) < _elevation_sd(sd))
+    if near.any():
+        covariance[near] = blurred(polar[near], sd[near])
     return position, covariance
+
+
+def blurred(polar: Floats, sd: Floats) -> Floats:
+    """
+    Return the covariance (M, d, d) of plots beside the origin or the zenith, where J is singular.
+
+    Plots nearer than their range noise are as unsure across as those at that range; within one
+    sd of the zenith, where azimuth tells nothing, they are as unsure across as in elevation.
+    """
+    r, azimuth, elevation = _columns(polar)
+    cb, sb, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
+    arm, tilt, d = np.maximum(r, sd[:, 0]), _elevation_sd(sd), polar.shape[1]
+    across = np.where(ce < tilt, tilt, ce * sd[:, 1])
+    along = np.stack([ce * cb, ce * sb, se], axis=1)
+    left = np.stack([-sb, cb, np.zeros_like(r)], axis=1)
+    up = np.stack([-se * cb, -se * sb, ce], axis=1)
+    axes = np.stack([along, left, up], axis=2)[:, :d, :d]
+    scaled = axes * np.stack([sd[:, 0], arm * across, arm * tilt], axis=1)[:, None, :d]
+    return np.asarray(scaled @ np.swapaxes(scaled, 1, 2))
 
 
 def linearised(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
@@ -98,6 +120,10 @@ def to_polar(position: Floats) -> Floats:
         return np.stack([ground, azimuth], axis=1)
     distance = np.hypot(ground, position[:, 2])
     return np.stack([distance, azimuth, np.arctan2(position[:, 2], ground)], axis=1)
+
+
+def _elevation_sd(sd: Floats) -> Floats:
+    return sd[:, 2] if sd.shape[1] == 3 else np.zeros(len(sd))
 
 
 def _columns(polar: Floats) -> tuple[Floats, Floats, Floats]:

@@ -17,6 +17,8 @@ from typing import Any, TypeVar
 import numpy as np
 
 Config = TypeVar('Config')
+LARGEST = 1e15  # number without a limit of its own: its powers up to the tenth stay numbers
+MOST = 64  # values of one parameter: matrices of modes grow with the square of their number
 
 
 @dataclass(frozen=True)
@@ -69,8 +71,7 @@ def _check(name: str, value: Any, f: Any) -> None:
     meta = f.metadata
     if meta['choices'] and value not in meta['choices']:
         raise ValueError(f'{name} must be one of {", ".join(meta["choices"])}, got {value!r}')
-    is_tuple = isinstance(f.default, tuple)
-    for number in value if is_tuple else (value,):
+    for number in _numbers(name, value, f):
         if isinstance(f.default, (str, bool)):
             if not isinstance(number, type(f.default)):
                 raise ValueError(f'{name} must be a {type(f.default).__name__}, got {number!r}')
@@ -79,10 +80,18 @@ def _check(name: str, value: Any, f: Any) -> None:
             raise ValueError(f'{name} must be a number, got {number!r}')
         if isinstance(f.default, int) and not isinstance(number, int):
             raise ValueError(f'{name} must be a whole number, got {number!r}')
-        low = -np.inf if meta['low'] is None else meta['low']
-        high = np.inf if meta['high'] is None else meta['high']
+        low = -LARGEST if meta['low'] is None else meta['low']
+        high = LARGEST if meta['high'] is None else meta['high']
         if not low <= number <= high:
             raise ValueError(f'{name} must be in [{low}, {high}] {meta["unit"]}, got {number}')
+
+
+def _numbers(name: str, value: Any, f: Any) -> tuple[Any, ...]:
+    if not isinstance(f.default, tuple):
+        return (value,)
+    if len(value) > MOST:
+        raise ValueError(f'{name} takes at most {MOST} values, got {len(value)}')
+    return tuple(value)
 
 
 def parameters(config: Any, prefix: str = '') -> Iterator[Parameter]:
@@ -134,8 +143,8 @@ def _with_values(config: Config, values: dict[str, Any], prefix: str) -> Config:
 def coerce(value: Any, like: Any) -> Any:
     """Return the value in the type of `like`: int to float, list or array to tuple."""
     if isinstance(like, tuple):
-        items = [value] if np.isscalar(value) else list(value)
+        items = list(value) if np.iterable(value) and not isinstance(value, str) else [value]
         return tuple(coerce(item, like[0]) if like else item for item in items)
     if isinstance(like, float) and isinstance(value, int) and not isinstance(value, bool):
-        return float(value)
+        return float(value) if abs(value) <= LARGEST else value
     return value

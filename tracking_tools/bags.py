@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
 from shutil import rmtree
 from tempfile import mkdtemp
@@ -58,16 +60,36 @@ def reliable(depth: int = 10) -> Qos:
     )
 
 
-def open_bag(path: Path | str) -> AnyReader:
+class BadBag(ValueError):  # noqa: N818 (it is the bag that is bad)
+    """A bag that cannot be used; says what it has and what is missing."""
+
+
+@contextmanager
+def open_bag(path: Path | str) -> Iterator[AnyReader]:
     """
-    Return a recording to read, mcap or sqlite3, as a context manager.
+    Give a recording to read, mcap or sqlite3.
 
     Bags that carry no message definitions are read with those of Jazzy.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is nothing at `path`.
+    BadBag
+        If what is there is no recording, or a damaged one.
+
     """
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(f'no bag at {path}')
-    return AnyReader([path], default_typestore=TYPESTORE)
+    try:
+        bag = AnyReader([path], default_typestore=TYPESTORE)
+        bag.open()
+    except Exception as error:  # whatever damaged bytes lead the reader to
+        why = str(error) or type(error).__name__
+        raise BadBag(f'{path} cannot be read as a rosbag2 recording: {why}') from error
+    with closing(bag):
+        yield bag
 
 
 class BagWriter:

@@ -16,12 +16,13 @@ import shutil
 import signal
 import sys
 
+from tracking_tools.bags import BadBag
 from tracking_tools.demo_player import play
 from tracking_tools.demo_report import report
 from tracking_tools.node_process import NodeFailed
 from tracking_tools.picture import draw
 from tracking_tools.replay import RADAR, read_configs, replay
-from tracking_tools.replay_topics import BadBag, Topics
+from tracking_tools.replay_topics import Topics
 from tracking_tools.report import load_page
 from tracking_tools.scene import read_scene
 from tracking_tools.sensors import Configs, Sensor

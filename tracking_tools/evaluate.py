@@ -12,8 +12,8 @@ import sys
 
 from rosbags.highlevel import AnyReaderError
 
+from tracking_tools.bags import BadBag
 from tracking_tools.evaluation import evaluate, to_json, to_text, Yardstick
-from tracking_tools.replay_topics import BadBag
 from tracking_tools.sensors import SENSORS
 
 

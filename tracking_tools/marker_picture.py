@@ -20,12 +20,12 @@ import numpy as np
 from rosbags.highlevel import AnyReader
 
 from tracking_core.batches import Floats
-from tracking_tools.bags import NANOSECONDS, open_bag
+from tracking_tools.bags import BadBag, NANOSECONDS, open_bag
 from tracking_tools.marker_shapes import draw_markers, places
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.picture import save
 from tracking_tools.picture_style import BACK, dress
-from tracking_tools.replay_topics import BadBag, check_topics, messages_of, Topics
+from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.screen import Screen
 from tracking_tools.sensors import Sensor, SENSORS
 

@@ -48,7 +48,7 @@ def parse_value(text: str) -> Any:
     """Return the value that a text means in a parameter file; raises BadParameterFile."""
     try:
         return yaml.load(text, Loader)
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise BadParameterFile(f'{text!r} is not a value: {error}') from error
 
 

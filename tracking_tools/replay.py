@@ -24,13 +24,13 @@ from tqdm import tqdm
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.parameter_blocks import BadParameterFile
 from msg_adapters.session import Session
-from tracking_tools.bags import BagWriter, NANOSECONDS, open_bag
+from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, open_bag
 from tracking_tools.parameter_file import (
     configure,
     parse_value,
     read_parameter_file,
 )
-from tracking_tools.replay_topics import BadBag, check_topics, messages_of, Topics
+from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.report import load_page
 from tracking_tools.sensors import Configs, Sensor, SENSORS
 from tracking_tools.summary import Console, Summary
@@ -77,17 +77,14 @@ def replay(
     configs = configs or sensor.configs
     session = sensor.make_session(*configs, rosbags_types(), Console(quiet))
     summary, began = Summary(session.counts[sensor.topic]), time.perf_counter()
-    try:
-        with open_bag(recording) as bag:
-            check_topics(bag, topics, recording)
-            with BagWriter(output) as out:
-                out.announce(topics.tracks, POINT_CLOUD)
-                for table, received, taken in _drive(bag, session, topics, quiet):
-                    out.write(topics.tracks, table, received)
-                    summary.add(session.tracks, received)
-                    summary.step_times.append(taken)
-    except AnyReaderError as error:
-        raise BadBag(f'{recording} cannot be read as a rosbag2 recording: {error}') from error
+    with open_bag(recording) as bag:
+        check_topics(bag, topics, recording)
+        with BagWriter(output) as out:
+            out.announce(topics.tracks, POINT_CLOUD)
+            for table, received, taken in _drive(bag, session, topics, quiet):
+                out.write(topics.tracks, table, received)
+                summary.add(session.tracks, received)
+                summary.step_times.append(taken)
     summary.wall_time = time.perf_counter() - began
     return summary
 

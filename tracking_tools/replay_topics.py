@@ -14,7 +14,7 @@ from rosbags.interfaces import Connection
 
 from msg_adapters.kinds.menu import check_type
 from msg_adapters.session import Session
-from tracking_tools.bags import absolute
+from tracking_tools.bags import absolute, BadBag
 from tracking_tools.sensors import Sensor, SENSORS
 
 TYPES = {
@@ -22,10 +22,6 @@ TYPES = {
     'acquire': 'geometry_msgs/msg/PointStamped',
     'cancel': 'std_msgs/msg/UInt32',
 }
-
-
-class BadBag(ValueError):  # noqa: N818 (it is the bag that is bad)
-    """A bag that cannot be replayed; says what it has and what is missing."""
 
 
 class Handler(NamedTuple):

@@ -176,3 +176,14 @@ def test_unbiased_tends_to_linearised(dimensions: int) -> None:
     other, R_other = unbiased(polar[far], sd[far])
     assert_allclose(other, near, rtol=1e-6, atol=1.0)
     assert relative_error(R_other, R) < 1e-2
+
+
+def test_to_cartesian_is_regular_at_the_origin_and_the_zenith() -> None:
+    """J is singular there; a plot never is, and is as unsure across as its noise allows."""
+    sd = np.array([[50.0, 2e-3, 2e-3]])
+    for polar in ([0.0, 1.0, 0.2], [1e-9, 1.0, 0.2], [5e4, 1.0, np.pi / 2], [0.0, 1.0, np.pi / 2]):
+        for dimensions in (2, 3):
+            _, covariance = to_cartesian(np.array([polar])[:, :dimensions], sd[:, :dimensions])
+            sizes = np.sqrt(np.linalg.eigvalsh(covariance[0]))
+            arm = max(polar[0], sd[0, 0])
+            assert sizes[0] >= min(arm * 2e-3, 50.0) * 0.9  # cos of an elevation of 0.2

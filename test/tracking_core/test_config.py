@@ -112,3 +112,21 @@ def test_coerce_takes_the_type_of_the_default(value, like, expected) -> None:
     result = coerce(value, like)
     assert result == expected
     assert type(result) is type(expected)
+
+
+@pytest.mark.parametrize(
+    ('name', 'value', 'message'),
+    [
+        ('initiation.speed_max', np.inf, 'must be in'),
+        ('initiation.speed_max', np.nan, 'must be in'),
+        ('sensor.range_sd', 1e300, 'must be in'),
+        ('sensor.range_sd', 10**400, 'must be in'),
+        ('alpha_beta.alpha', None, 'must be a number'),
+        ('alpha_beta.alpha', {'a': 1}, 'must be a number'),
+        ('motion.horizontal.acceleration_sd', [1.0] * 100_000, 'takes at most 64 values'),
+    ],
+)
+def test_with_values_refuses_what_no_number_of_the_world_is(name, value, message) -> None:
+    """Infinite, beyond arithmetic, or a list whose square no memory holds."""
+    with pytest.raises(ValueError, match=message):
+        with_values(DEFAULT, {name: value})

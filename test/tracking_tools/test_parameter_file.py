@@ -135,3 +135,21 @@ def test_shipped_parameter_files_configure_the_node(file):
     assert values
     sonar = file.stem in ('sonar', 'passive_linear_array', 'direction_finder')
     configure(SENSORS['sonar' if sonar else 'radar'].configs, values)
+
+
+BOMB = 'a: &a [1]\n' + ''.join(
+    f'{new}: &{new} [{", ".join([f"*{old}"] * 10)}]\n'
+    for old, new in zip('abcdefgh', 'bcdefghi', strict=True)
+)
+
+
+@pytest.mark.parametrize(
+    'text',
+    ['[' * 50_000, BOMB, '/**: &a\n  x: *a\n', 'a: 2001-99-99\n', 'a: !!python/name:os.system\n',
+     '#' * 1_000_001],
+    ids=['deep', 'bomb', 'circle', 'no date', 'object', 'long'],
+)  # fmt: skip
+def test_read_parameter_file_refuses_hostile_yaml(read, text):
+    """What would recurse, grow or build objects is refused with the name of the file."""
+    with pytest.raises(BadParameterFile, match=r'some\.yaml'):
+        read(text)

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tracking_tools.bags import BagWriter, NANOSECONDS, TYPESTORE
+from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, TYPESTORE
 from tracking_tools.replay import main, replay
-from tracking_tools.replay_topics import BadBag, Topics
+from tracking_tools.replay_topics import Topics
 
 PARAMETERS = Path(__file__).parents[2] / 'config' / 'terminal_radar.yaml'
 TRACKS = '/radar_tracker/tracks'

@@ -11,14 +11,14 @@ import pytest
 
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.table import to_columns
-from tracking_tools.bags import BagWriter, nanoseconds, open_bag
+from tracking_tools.bags import BadBag, BagWriter, nanoseconds, open_bag
 from tracking_tools.bearing_picture import draw
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
 from tracking_tools.crossings import find_crossings, find_hearings
 from tracking_tools.demo import main as demo_main
 from tracking_tools.demo_sonar import DEMO, PARAMETERS, record
 from tracking_tools.replay import main, read_configs
-from tracking_tools.replay_topics import BadBag, Topics
+from tracking_tools.replay_topics import Topics
 from tracking_tools.scenarios.listening import listen
 from tracking_tools.scenarios.messages import EPOCH
 from tracking_tools.scenarios.watches import long_watch, v0

@@ -13,11 +13,11 @@ import numpy as np
 
 from tracking_core.batches import Floats
 from tracking_core.config import parameters
-from tracking_tools.bags import open_bag
+from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
 from tracking_tools.evaluation import judge, Judgement, Yardstick
 from tracking_tools.evaluation.reading import read_tracks
-from tracking_tools.replay_topics import BadBag, Topics
+from tracking_tools.replay_topics import Topics
 from tracking_tools.scene import read_scene, Scene
 from tracking_tools.sensors import Configs, SENSORS
 

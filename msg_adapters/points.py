@@ -1,0 +1,30 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How a position that a user points at is read."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.bad_message import BadMessage
+from msg_adapters.frames import TrackingFrame
+from tracking_core.batches import Floats
+
+
+def to_position(msg: Any, frame: TrackingFrame, reach: float) -> Floats:
+    """
+    Return the position (3,) [m] of a PointStamped in the tracking frame.
+
+    Raises
+    ------
+    BadMessage
+        For another frame, or a coordinate that is no number or beyond `reach` [m].
+
+    """
+    position = np.array([msg.point.x, msg.point.y, msg.point.z])
+    frame.check_point(msg.header.frame_id.lstrip('/'))
+    if not (np.abs(position) <= reach).all():
+        raise BadMessage('bad point', f'point is {position}, farther than {reach:g} m')
+    return position
