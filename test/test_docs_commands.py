@@ -8,7 +8,6 @@ nodes, benchmarks and studies have tests of their own and are looked up. Command
 compared with entry points, launch files, parameters and topics.
 """
 
-from importlib import import_module
 from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
@@ -100,30 +99,34 @@ def test_module_runs_or_has_these_options(words, folder, monkeypatch, capsys):
     """In the order of the pages: a later command uses what an earlier one wrote."""
     module, *arguments = words
     if module not in HERE:
-        check_options(module, arguments, capsys)
+        check_options(module, arguments, monkeypatch, capsys)
         return
     monkeypatch.chdir(folder)
     output = arguments[arguments.index('--output') + 1] if '--output' in arguments else None
     if output is not None and Path(output).exists():
         return  # the README and a page name the same
-    assert main_of(module)(arguments) in (0, None)
+    assert run(module, arguments, monkeypatch) == 0
     assert output is None or Path(output).exists()
 
 
-def main_of(module):
-    """Return the function behind `python -m`."""
-    is_package = find_spec(module).submodule_search_locations is not None
-    return import_module(f'{module}.__main__' if is_package else module).main
+def run(module, arguments, monkeypatch):
+    """Do as `python -m` does; return the exit code."""
+    spec = find_spec(module)
+    if spec.submodule_search_locations is not None:
+        spec = find_spec(f'{module}.__main__')
+    monkeypatch.setattr(sys, 'argv', [spec.origin, *arguments])
+    with pytest.raises(SystemExit) as end:
+        runpy.run_path(spec.origin, run_name='__main__')
+    return end.value.code or 0
 
 
-def check_options(module, arguments, capsys):
+def check_options(module, arguments, monkeypatch, capsys):
     """Compare with what the module says of itself; nodes have no help."""
     assert find_spec(module) is not None
     files = [word for word in arguments if word.startswith('config/')]
     assert all((ROOT / file).exists() for file in files)
     if module.startswith('tracking_tools'):
-        with pytest.raises(SystemExit):
-            main_of(module)(['--help'])
+        assert run(module, ['--help'], monkeypatch) == 0
         said = capsys.readouterr().out
         ours = arguments[: [*arguments, '--ros-args'].index('--ros-args')]
         assert all(word in said for word in ours if word.startswith('--'))
