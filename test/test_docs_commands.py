@@ -70,14 +70,14 @@ def of(*start):
 
 @pytest.fixture(scope='module')
 def folder(tmp_path_factory):
-    """Return a folder with what the commands name: ten turns of the demo scene, parameters."""
+    """Return a folder with what the commands name: twenty turns of the demo scene, parameters."""
     folder = tmp_path_factory.mktemp('commands')
     (folder / 'config').symlink_to(ROOT / 'config')
     with (
         open_bag(ROOT / 'demo' / 'terminal_area') as bag,
         BagWriter(folder / 'demo' / 'terminal_area') as out,
     ):
-        for connection, time, raw in islice(bag.messages(), 80):
+        for connection, time, raw in islice(bag.messages(), 40):
             out.write_raw(connection.topic, connection.msgtype, raw, time)
     return folder
 

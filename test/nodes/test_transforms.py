@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plots in the frame of a sensor whose place comes from tf2: against a stand-in of its API."""
 
+from dataclasses import replace
 from importlib.util import find_spec
+from logging import getLogger
 from pathlib import Path
 
 from geometry_msgs.msg import TransformStamped
@@ -11,6 +13,10 @@ import pytest
 
 from msg_adapters.message_types import rclpy_types
 from msg_adapters.table import to_columns
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.node_config import radar_node_config
+from radar_tracker.session import radar_session
+from tracking_core.config import with_values
 
 STAND_IN = Path(__file__).parent / 'tf2_stand_in'
 USE_TF = ('use_tf:=true', 'tracking_frame:=map', 'scan.assembly:=snapshot')
@@ -85,27 +91,21 @@ def test_plots_without_a_transform_are_dropped_in_time_and_told(with_tf2, start_
     assert not probe.tables
 
 
-@pytest.mark.parametrize(
-    ('parameters', 'words'),
-    [
-        (('use_tf:=true',), 'needs a tracking_frame'),
-        pytest.param(
-            USE_TF,
-            'tf2_ros is not installed',
-            marks=pytest.mark.skipif(find_spec('tf2_ros') is not None, reason='it is installed'),
-        ),
-    ],
-)
-def test_use_tf_that_cannot_be_is_refused_at_the_start(start_node, parameters, words):
+@pytest.mark.skipif(find_spec('tf2_ros') is not None, reason='it is installed')
+def test_use_tf_without_tf2_is_refused_at_the_start(start_node):
     """Nothing is promised that does not come."""
-    node = start_node(*parameters)
+    node = start_node(*USE_TF)
     assert node.wait() == 1
-    assert words in node.log
+    assert 'tf2_ros is not installed' in node.log
     assert 'Traceback' not in node.log
 
 
-def test_use_tf_and_a_mount_exclude_each_other(with_tf2, start_node):
-    """The mount would count twice."""
-    node = start_node(*USE_TF, 'sensor.mount.x:=3.0')
-    assert node.wait() == 1
-    assert 'tf2 knows the mount' in node.log
+def test_use_tf_needs_a_tracking_frame_and_no_mount():
+    """The frame could be any; the mount would count twice."""
+    with pytest.raises(ValueError, match='use_tf needs a tracking_frame'):
+        replace(radar_node_config(), use_tf=True)
+    node = replace(radar_node_config(), use_tf=True, tracking_frame='map')
+    tracker = with_values(RadarTrackerConfig(), {'sensor.mount.x': 3.0})
+    session = radar_session(tracker, node, rclpy_types(), getLogger('test'))
+    with pytest.raises(ValueError, match='tf2 knows the mount'):
+        session.use_transforms(None)

@@ -30,7 +30,7 @@ def test_lines_of_the_page_are_those_that_nodes_print(start_node, ros_domain_id,
     nodes = [
         start_node('sensor.range_sdd:=3.0', arguments=file),
         start_node('use_sim_time:=true'),
-        start_node('sensor.range_sd:=-1.0'),
+        start_node('sensor.detection_probability:=1.5'),
         start_node('input_type:=radar_msgs/RadarScan'),
     ]
     for node in nodes[:2]:

@@ -65,8 +65,8 @@ def test_shape_is_drawn_where_the_marker_is(brush, kind):
 
 @pytest.mark.slow
 def test_live_node_shows_its_tracks_and_no_others(cut_bag, tmp_path):
-    """After 40 turns every track has its five shapes, and what was deleted is gone."""
-    bag = cut_bag(40)
+    """After 20 turns every track has its five shapes, and what was deleted is gone."""
+    bag = cut_bag(20)
     screen = play(bag, PARAMETERS, SENSORS['radar'], np.inf, tmp_path / 'node.log')
     shapes = {space for space, _ in screen.markers}
     assert shapes == {'history', 'velocity', 'covariance', 'gate', 'id'}
