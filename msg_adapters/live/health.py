@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
 import math
+import time
 
 from msg_adapters.session import Session
 
@@ -21,11 +22,22 @@ class Health:
 
     started: float  # when the node became active, by a clock that never goes back [s]
     step_time: float = 0.0  # of the last plots message [s]
+    step_cpu: float = 0.0  # the same of the processor [s]
     latency: float = math.nan  # from arrival to tracks [s]
     plots_at: float = -math.inf  # when the last plots came, by the same clock [s]
     ownship_at: float = -math.inf
     _complaints: int = 0
     _shed: int = 0
+    _begun: tuple[float, float] = (0.0, 0.0)
+
+    def step_begins(self) -> None:
+        """Start both clocks of a step."""
+        self._begun = time.perf_counter(), time.thread_time()
+
+    def step_ends(self) -> None:
+        """Take note of how long it took."""
+        begun, used = self._begun
+        self.step_time, self.step_cpu = time.perf_counter() - begun, time.thread_time() - used
 
     def level(self, session: Session, now: float) -> tuple[str, str]:
         """Return level and message: what is worst at the moment."""
@@ -78,6 +90,7 @@ class Health:
             f'{topic} held': report.held,
             'clutter density': report.clutter_density,
             'step time [s]': self.step_time,
+            'step CPU [s]': self.step_cpu,
             'latency [s]': self.latency,
             f'{topic} age [s]': now - self.plots_at,
             'ownship age [s]': now - self.ownship_at,

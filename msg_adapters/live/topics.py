@@ -125,13 +125,13 @@ class LiveTopics:
         self._waiting.take(msg, info)
 
     def _use_plots(self, msg: Any, info: Any) -> None:
-        begun = time.perf_counter()
+        self._health.step_begins()
         table = self._session.plots(msg, arrival_time(self._node))
         if table is not None:
             self._tracks.publish(table)
             self._show()
             self._health.latency = age(info)
-        self._health.step_time = time.perf_counter() - begun
+        self._health.step_ends()
         self._report()
 
     def _show(self) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from rosgraph_msgs.msg import Clock
 
+from benchmarks.processes import cpu_time
 from msg_adapters.message_types import rclpy_types
 from msg_adapters.table import to_columns
 from tracking_tools.testing import confirmed_ids
@@ -138,3 +139,28 @@ def test_clock_that_goes_back_begins_anew_at_once(start_node, probe):
     after = probe.scan(probe.stamp - 500.0)
     assert set(after['id'][after['status'] == 2]) >= set(before['id'][before['status'] == 1])
     assert node.log.count('starts anew') == 1
+
+
+def test_stamps_far_from_the_clock_are_told_once_and_tracked(start_node, probe):
+    """Who has forgotten use_sim_time reads of it, and has tracks all the same."""
+    node = start_node()
+    probe.meet()
+    probe.confirmed()
+    assert 'behind the clock: use_sim_time?' in node.log
+    assert node.log.count('use_sim_time?') == 1
+
+
+def test_fast_clock_costs_little(start_node, probe):
+    """One thread: a tick of /clock costs the node under 2 ms, whatever the rate."""
+    node = start_node('use_sim_time:=true')
+    clock = probe.tell(Clock, '/clock')
+    probe.meet()
+    probe.peer.wait_until_matched(clock)
+    before = cpu_time(node.process.pid)
+    now = Clock()
+    for tick in range(1000):
+        now.clock = rclpy_types().header(probe.stamp + 1e-3 * tick, '').stamp
+        clock.publish(now)
+        probe.peer.spin(lambda: False, 1e-3)
+    probe.until_diagnosed_at(probe.stamp + 0.999)
+    assert cpu_time(node.process.pid) - before < 2.0

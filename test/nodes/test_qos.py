@@ -4,10 +4,11 @@
 
 import numpy as np
 import pytest
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import PointCloud2
 
 BEST_EFFORT, RELIABLE = ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE
+VOLATILE = DurabilityPolicy.VOLATILE
 INPUTS = ('/plots', '/ownship', '/acquire', '/cancel')
 OUTPUTS = (
     '/radar_tracker/tracks', '/radar_tracker/odometry', '/radar_tracker/markers', '/diagnostics',
@@ -21,13 +22,14 @@ def sensor(request, radar, sonar):
 
 
 def own_ends(probe, topic):
-    """Return the QoS of the tracker's own ends of a topic."""
+    """Return (reliability, durability) of the tracker's own ends of a topic."""
     graph, name = probe.node, probe.sensor.node
     ends = [
         *graph.get_publishers_info_by_topic(topic),
         *graph.get_subscriptions_info_by_topic(topic),
     ]
-    return [end.qos_profile.reliability for end in ends if end.node_name == name]
+    own = [end.qos_profile for end in ends if end.node_name == name]
+    return [(qos.reliability, qos.durability) for qos in own]
 
 
 @pytest.mark.parametrize('sensor', ['radar', 'sonar'], indirect=True)
@@ -50,14 +52,14 @@ def test_best_effort_and_reliable_peers_connect_on_either_side(start_node, probe
     probe.plots = reliable
 
 
-def test_qos_overrides_hold_on_every_topic(start_node, probe):
-    """A user decides for each topic, by parameter."""
+def test_qos_overrides_hold_on_every_topic_and_none_is_transient_local(start_node, probe):
+    """A user decides for each topic, by parameter; bags need no late joiners."""
     overrides = [f'qos_overrides.{t}.subscription.reliability:=reliable' for t in INPUTS]
     overrides += [f'qos_overrides.{t}.publisher.reliability:=best_effort' for t in OUTPUTS]
     node = start_node(*overrides)
     probe.spin_until(lambda: all(own_ends(probe, t) for t in (*INPUTS, *OUTPUTS)), 'topics')
-    assert {policy for t in INPUTS for policy in own_ends(probe, t)} == {RELIABLE}
-    assert {policy for t in OUTPUTS for policy in own_ends(probe, t)} == {BEST_EFFORT}
+    assert {policy for t in INPUTS for policy in own_ends(probe, t)} == {(RELIABLE, VOLATILE)}
+    assert {policy for t in OUTPUTS for policy in own_ends(probe, t)} == {(BEST_EFFORT, VOLATILE)}
     assert 'no parameter' not in node.log
 
 
@@ -82,21 +84,23 @@ def test_silence_is_explained_with_the_publishers_and_their_qos(start_node, prob
 
 
 @pytest.mark.parametrize('sensor', ['sonar'], indirect=True)
-def test_silence_without_any_publisher_is_explained(start_node, sensor):
-    """The node says what it waits for, and that nobody is there."""
-    node = start_node()
+def test_silence_without_any_publisher_or_clock_is_explained(start_node, sensor):
+    """The node says what it waits for, that nobody is there, and that the clock is missing too."""
+    node = start_node('use_sim_time:=true')
     line = node.wait_for_line(f'nothing has come on /{sensor.topic}')
     assert 'sensor_msgs/msg/PointCloud2' in line
     assert 'nobody publishes there' in line
+    assert 'use_sim_time is true, but nothing has come on /clock either' in line
 
 
 def test_latency_and_losses_are_in_the_diagnostics(start_node, probe):
-    """From arrival to tracks in seconds, and messages that the transport has lost."""
+    """From arrival to tracks, time of the processor, and messages that the transport has lost."""
     start_node('qos_overrides./plots.subscription.depth:=1')
     probe.meet()
     probe.scan()
     probe.spin_until(lambda: probe.diagnosed('latency [s]') not in (None, 'nan'), 'latency')
     assert 0.0 < float(probe.diagnosed('latency [s]')) < 10.0
+    assert 0.0 < float(probe.diagnosed('step CPU [s]')) < 1.0
     noise = {name: np.zeros(5000, np.float32) for name in ('range', 'azimuth')}
     for _ in range(200):  # faster than anybody reads
         probe.stamp += 0.01
