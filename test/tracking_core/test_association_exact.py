@@ -11,6 +11,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 import pytest
 
 from tracking_core.association import exact, global_nearest, jpda
+from tracking_core.association.belief import propagate
+from tracking_core.association.clusters import Contest
 from tracking_core.association.sums import log_others, others
 from tracking_core.batches import Floats, Ints
 
@@ -133,15 +135,25 @@ def test_belief_propagation_is_near_on_tight_clusters() -> None:
 
 
 @pytest.mark.parametrize('spread', [3.0, 1000.0])
-def test_belief_propagation_is_exact_without_loops(spread: float) -> None:
-    """A chain of tracks, each sharing a plot with the next, has no loops."""
+def test_what_has_no_loops_is_exact_at_any_size(spread: float) -> None:
+    """A chain of tracks, each sharing a plot with the next, needs neither table nor propagation."""
     track, plot = np.repeat(np.arange(7), 2), np.repeat(np.arange(8), 2)[1:-1]
     _, _, log_weight, log_miss, _ = make_scene(6, 7, 2, 1.0, spread)
-    rough = jpda(track, plot, log_weight, log_miss, 8, largest=0)
-    assert rough.approximate.all()
-    assert_allclose(
-        rough.probability, jpda(track, plot, log_weight, log_miss, 8).probability, atol=1e-5
-    )
+    scene = (track, plot, log_weight, log_miss, 8)
+    found = jpda(*scene, largest=0)
+    assert not found.approximate.any()
+    assert_allclose(found.probability, marginals(scene)[0], atol=1e-12)
+    contest = Contest(track, plot, log_weight - log_miss[track], np.zeros(14, np.int64), 7, 8)
+    assert_allclose(propagate(contest), found.probability, atol=1e-5)
+
+
+def test_tracks_that_hang_on_a_large_contest_are_approximate_too() -> None:
+    """What is summed up first depends on the rest: a tail on a ring of twelve says so."""
+    ring = np.arange(12)
+    track = np.concatenate([np.repeat(ring, 2), [12, 12, 13]])
+    plot = np.concatenate([np.stack([ring, (ring + 1) % 12], axis=1).reshape(-1), [0, 12, 13]])
+    found = jpda(track, plot, np.ones(27), -np.ones(14), 14)
+    assert_array_equal(np.flatnonzero(~found.approximate), [13])
 
 
 def test_others_do_not_cancel() -> None:
