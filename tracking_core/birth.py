@@ -52,13 +52,10 @@ def start_tracks(
     free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
     if setup.resolution is not None:
         free &= ~_hidden(scan, seen, setup, setup.resolution)
-    fresh = Seeds(
-        scan.time[free],
-        scan.position[free],
-        scan.covariance[free],
-        1.0 - seen.claimed[free],
-        scan.clutter_volume[free],
+    plots = Seeds(
+        scan.time, scan.position, scan.covariance, 1.0 - seen.claimed, scan.clutter_volume
     )
+    fresh = take(plots, free)
     if setup.initiation.method == 'one_point':
         starts = one_point(fresh, density.existence, setup.initiation)
     else:

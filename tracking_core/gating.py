@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which plots could belong to which tracks? Found over a grid of rows, sorted within each row."""
+"""Which plots could belong to which tracks? Found over a grid of cells."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from tracking_core.batches import Floats, Ints
 from tracking_core.linalg import wrap_angle
 
 _FEW = 20_000  # track-plot combinations that are all compared sooner than sorted
+_MOST_CELLS, _CELLS_PER_PLOT = 2**16, 8  # of the grid: what 16 bits number, and not too many
 
 
 def box_pairs(
@@ -18,7 +19,7 @@ def box_pairs(
     """
     Find all plots inside axis-parallel boxes around the tracks.
 
-    Unless they are few, plots are sorted by grid row, then by x; a track looks only into the rows
+    Unless they are few, plots are sorted into the cells of a grid; a track looks only into those
     that its box touches, so that the work grows with the number of pairs, not with T times M.
 
     Parameters
@@ -46,19 +47,12 @@ def box_pairs(
     if plots.shape[1] == 1:  # one coordinate: one row
         centre, half_size = np.pad(centre, ((0, 0), (0, 1))), np.pad(half_size, ((0, 0), (0, 1)))
         plots = np.pad(plots, ((0, 0), (0, 1)))
-    key, order, (owner, from_key, to_key) = _rows(centre, half_size, plots)
-    first = key.searchsorted(from_key, 'left')
-    count = np.maximum(key.searchsorted(to_key, 'right') - first, 0)
-    count[count.cumsum() > most] = 0
-    track = owner.repeat(count)
-    plot = order[_runs(first, count)]
+    track, plot = _candidates(centre, half_size, plots, most)
     for axis in range(plots.shape[1]):  # what a plot does not measure, NaN, keeps nobody out
-        apart = np.abs(plots[plot, axis] - centre[track, axis])
-        inside = ~(apart > half_size[track, axis])
-        track, plot = track[inside], plot[inside]
-    both = track * len(plots) + plot
-    both.sort()
-    return np.divmod(both, len(plots))
+        apart = np.abs(plots[:, axis].take(plot) - centre[:, axis].take(track))
+        inside = (~(apart > half_size[:, axis].take(track))).nonzero()[0]
+        track, plot = track.take(inside), plot.take(inside)
+    return _in_order(track, plot, len(plots))
 
 
 def _compare_all(centre: Floats, half_size: Floats, plots: Floats) -> tuple[Ints, Ints]:
@@ -87,32 +81,49 @@ def sector_pairs(
     count[np.cumsum(count) > most] = 0
     track = np.repeat(np.arange(len(centre)), count)
     place = _runs(first, count)
-    return np.divmod(np.sort(track * M + order[place % max(len(order), 1)]), M)
+    return _in_order(track, order[place % max(len(order), 1)], M)
 
 
-def _rows(
-    centre: Floats, half_size: Floats, plots: Floats
-) -> tuple[Floats, Ints, tuple[Ints, Floats, Floats]]:
-    """Return plots as sorted keys (row number times width, plus x), and what tracks look for."""
-    x, y = plots[:, 0], plots[:, 1]
-    left, bottom, top = x.min(), y.min(), y.max()
-    width = 2.0 * (x.max() - left) + 1.0
-    height = max(2.0 * float(np.sort(half_size[:, 1])[len(centre) // 2]), 1e-9)
-    rows = int(min((top - bottom) / height, 10_000.0)) + 1
-    height = max((top - bottom) / rows, 1e-9) * (1.0 + 1e-9)
-    row = np.minimum(((y - bottom) / height).astype(np.int64), rows - 1)
-    key = row * width + (x - left)
-    order = key.argsort(kind='stable')
+def _candidates(centre: Floats, half_size: Floats, plots: Floats, most: int) -> tuple[Ints, Ints]:
+    """Return tracks (C,) with the plots (C,) in the cells that their boxes touch."""
+    edge = plots[:, :2].min(axis=0)
+    extent = plots[:, :2].max(axis=0) - edge
+    size, shape = _cells(extent, half_size, len(plots))
+    (columns, rows), last = shape, shape - 1
+    column, row = np.minimum(((plots[:, :2] - edge) / size).astype(np.int64), last).T
+    cell = (row * columns + column).astype(np.uint16)  # short: sorted by counting
+    order = cell.argsort(kind='stable')
+    start = np.zeros(columns * rows + 1, np.int64)
+    np.bincount(cell, minlength=columns * rows).cumsum(out=start[1:])
 
-    low, high = centre - half_size, centre + half_size
-    first_row = _bound(np.floor((low[:, 1] - bottom) / height), 0, rows).astype(np.int64)
-    last_row = _bound(np.floor((high[:, 1] - bottom) / height), -1, rows - 1).astype(np.int64)
-    touched = np.maximum(last_row - first_row + 1, 0)
+    low, high = centre[:, :2] - half_size[:, :2], centre[:, :2] + half_size[:, :2]
+    left, bottom = _bound(np.floor((low - edge) / size), 0, shape).astype(np.int64).T
+    right, top = _bound(np.floor((high - edge) / size), -1, last).astype(np.int64).T
+    touched = np.maximum(top - bottom + 1, 0)
     owner = np.arange(len(centre)).repeat(touched)
-    base = _runs(first_row, touched) * width
-    from_x = _bound(low[owner, 0] - left, 0.0, width / 2.0)
-    to_x = _bound(high[owner, 0] - left, -1.0, width / 2.0)
-    return key[order], order, (owner, base + from_x, base + to_x)
+    base = _runs(bottom, touched) * columns
+    first = start[base + left.take(owner)]
+    count = np.maximum(start[base + right.take(owner) + 1] - first, 0)
+    count[count.cumsum() > most] = 0
+    return owner.repeat(count), order[_runs(first, count)]
+
+
+def _cells(extent: Floats, half_size: Floats, plots: int) -> tuple[Floats, Ints]:
+    """Return width and height of the cells, and how many there are each way."""
+    usual = np.sort(half_size[:, :2], axis=0)[len(half_size) // 2]
+    number = np.minimum(extent / np.maximum(usual, 1e-9), _MOST_CELLS) + 1.0
+    number /= max(np.sqrt(number.prod() / min(_MOST_CELLS, _CELLS_PER_PLOT * plots)), 1.0)
+    shape = np.maximum(number, 1.0).astype(np.int64)
+    shape = np.minimum(shape, _MOST_CELLS // shape[::-1])
+    return np.maximum(extent / shape, 1e-9) * (1.0 + 1e-9), shape
+
+
+def _in_order(track: Ints, plot: Ints, plots: int) -> tuple[Ints, Ints]:
+    """Sort pairs by track, then plot."""
+    both = track * plots + plot
+    both.sort()
+    track = both // plots
+    return track, both - track * plots
 
 
 def _runs(first: Ints, count: Ints) -> Ints:
@@ -121,5 +132,5 @@ def _runs(first: Ints, count: Ints) -> Ints:
     return np.asarray((first - ends + count).repeat(count) + np.arange(count.sum()))
 
 
-def _bound(values: Floats, least: float, most: float) -> Floats:
+def _bound(values: Floats, least: int, most: Ints) -> Floats:
     return np.asarray(np.minimum(np.maximum(values, least), most))

@@ -14,7 +14,7 @@ from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import wrap_angle
 from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_variance
-from tracking_core.rows import take
+from tracking_core.rows import take, take_rows
 
 _MOST_PAIRS = 1_000_000  # of plots looked at; the last seeds go without
 _NOISE_SIGMAS = 3.0  # by how much of the plots' noise the speed limit is widened
@@ -91,71 +91,61 @@ def two_point(
 
     """
     odds = Odds(density, detection_probability, config)
-    alone = odds.of_pair(
-        seeds, seeds, np.zeros_like(seeds.position), np.full(len(seeds), interval)
-    )  # at best
+    alone = odds.at_best(seeds, interval)
     most = MOST_NEW * seeds.free
     seeds = take(seeds, most * alone >= least_existence * (1.0 - most + most * alone))
 
-    old, new = _within_reach(seeds, fresh, 0.5 * interval, config, is_angular)
-    dt = fresh.time[new] - seeds.time[old]
+    old, new, step, dt = _within_reach(seeds, fresh, 0.5 * interval, config, is_angular)
     looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
-    step = _step(seeds, fresh, old, new, is_angular)
     likely = odds.of_pair(take(seeds, old), take(fresh, new), step, dt)
     likely = likely * (1.0 - detection_probability) ** looks_between
     evidence = np.bincount(old, likely, len(seeds)) - detection_probability
     prior = share_of_new(density.existence, np.asarray(evidence), seeds.free) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]
-    keep = existence >= least_existence
-    return _starts(seeds, fresh, old[keep], new[keep], existence[keep], is_angular)
+    keep = (existence >= least_existence).nonzero()[0]
+    first, second = take(seeds, old[keep]), take(fresh, new[keep])
+    return _starts(first, second, take_rows(step, keep), dt[keep], existence[keep], new[keep])
 
 
 def _within_reach(
     seeds: Seeds, fresh: Seeds, shortest: float, config: InitiationConfig, is_angular: bool
-) -> tuple[Ints, Ints]:
+) -> tuple[Ints, Ints, Floats, Floats]:
+    """Return the rows (K,), (K,) of pairs, how far (K, d) they are apart and how long (K,) [s]."""
+    d = seeds.position.shape[1]
     if len(seeds) == 0 or len(fresh) == 0:
-        return np.zeros(0, np.int64), np.zeros(0, np.int64)
+        return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, d)), np.zeros(0)
     longest = np.maximum(fresh.time.max() - seeds.time, 0.0)
-    noise = _NOISE_SIGMAS * np.sqrt(
-        _variances(seeds.covariance) + _variances(fresh.covariance).max(axis=0)
-    )
-    limit = limits(seeds.position.shape[1], config)
+    variances = [plots.covariance.diagonal(0, 1, 2) for plots in (seeds, fresh)]
+    noise = _NOISE_SIGMAS * np.sqrt(variances[0] + variances[1].max(axis=0))
     find = sector_pairs if is_angular else box_pairs
-    old, new = find(seeds.position, limit * longest[:, None] + noise, fresh.position, _MOST_PAIRS)
-    dt = (fresh.time[new] - seeds.time[old])[:, None]
-    noise = _NOISE_SIGMAS * np.sqrt(
-        _variances(seeds.covariance)[old] + _variances(fresh.covariance)[new]
-    )
-    step = np.abs(_step(seeds, fresh, old, new, is_angular))
-    slack = np.maximum(step - noise, 0.0)
-    fits = np.linalg.norm(slack[:, :2], axis=1) <= config.speed_max * dt[:, 0]
-    fits &= dt[:, 0] > shortest
-    fits &= (slack[:, 2:] <= config.climb_max * dt).all(axis=1)
-    return old[fits], new[fits]
-
-
-def _variances(covariance: Floats) -> Floats:
-    return np.asarray(np.einsum('mdd->md', covariance))
-
-
-def _step(seeds: Seeds, fresh: Seeds, old: Ints, new: Ints, is_angular: bool) -> Floats:
-    step = fresh.position[new] - seeds.position[old]
-    return wrap_angle(step) if is_angular else step
+    reach = limits(d, config) * longest[:, None] + noise
+    old, new = find(seeds.position, reach, fresh.position, _MOST_PAIRS)
+    dt = fresh.time[new] - seeds.time[old]
+    step = take_rows(fresh.position, new) - take_rows(seeds.position, old)
+    step = wrap_angle(step) if is_angular else step
+    noise = _NOISE_SIGMAS * np.sqrt(take_rows(variances[0], old) + take_rows(variances[1], new))
+    slack = np.maximum(np.abs(step) - noise, 0.0)
+    fits = np.sqrt((slack[:, :2] ** 2).sum(axis=1)) <= config.speed_max * dt
+    fits &= dt > shortest
+    for axis in range(2, d):
+        fits &= slack[:, axis] <= config.climb_max * dt
+    kept = fits.nonzero()[0]
+    return old[kept], new[kept], take_rows(step, kept), dt[kept]
 
 
 def _starts(
-    seeds: Seeds, fresh: Seeds, old: Ints, new: Ints, existence: Floats, is_angular: bool
+    first: Seeds, second: Seeds, step: Floats, dt: Floats, existence: Floats, plot: Ints
 ) -> Starts:
-    dt = (fresh.time[new] - seeds.time[old])[:, None]
-    R0, R1 = seeds.covariance[old], fresh.covariance[new]
-    K, d = len(old), fresh.position.shape[1]
+    K, d = step.shape
+    R0, R1 = first.covariance, second.covariance
     mean, covariance = np.empty((K, d, 2)), np.empty((K, d, 2, d, 2))
-    mean[:, :, 0] = fresh.position[new]
-    mean[:, :, 1] = _step(seeds, fresh, old, new, is_angular) / dt
-    over_dt = R1 / dt[..., None]
-    covariance[:, :, 0, :, 0], covariance[:, :, 1, :, 1] = R1, (R0 + R1) / dt[..., None] ** 2
+    mean[:, :, 0] = second.position
+    mean[:, :, 1] = step / dt[:, None]
+    over_dt = R1 / dt[:, None, None]
+    covariance[:, :, 0, :, 0] = R1
+    covariance[:, :, 1, :, 1] = (R0 + R1) / dt[:, None, None] ** 2
     covariance[:, :, 0, :, 1] = covariance[:, :, 1, :, 0] = over_dt
-    return Starts(mean, covariance, existence, new, 2)
+    return Starts(mean, covariance, existence, plot, 2)
 
 
 def plane_start(starts: Starts, coordinates: tuple[int, ...]) -> tuple[Floats, Floats]:

@@ -42,6 +42,11 @@ class Odds:
     detection_probability: float
     config: InitiationConfig
 
+    def at_best(self, seeds: Seeds, dt: float) -> Floats:
+        """Return `of_pair` (S,) if the second plot lies where the first does, dt [s] later."""
+        _, determinant = inverse(self._spread(2.0 * seeds.covariance, np.full(len(seeds), dt)))
+        return self._odds(seeds, determinant)
+
     def of_pair(self, first: Seeds, second: Seeds, step: Floats, dt: Floats) -> Floats:
         """
         Return P_D p(second | first) over the density of other plots (K,).
@@ -49,15 +54,25 @@ class Odds:
         The contact's velocity is taken as Gaussian with the variance that the speed limit gives;
         `step` (K, d) [m] apart after `dt` (K,) [s].
         """
-        d = step.shape[1]
-        spread = first.covariance + second.covariance
-        axis = np.arange(d)
-        spread[:, axis, axis] += velocity_variance(d, self.config) * dt[:, None] ** 2
+        spread = self._spread(first.covariance + second.covariance, dt)
         inverted, determinant = inverse(spread)
         distance = np.einsum('kd,kde,ke->k', step, inverted, step)
-        likelihood = np.exp(-0.5 * distance) / np.sqrt((2.0 * np.pi) ** d * determinant)
+        return np.asarray(self._odds(second, determinant) * np.exp(-0.5 * distance))
+
+    def _spread(self, noise: Floats, dt: Floats) -> Floats:
+        """Return the covariance (K, d, d) of a step with this noise (K, d, d) after dt (K,)."""
+        spread = noise.copy('K')
+        d = noise.shape[1]
+        for axis, variance in enumerate(velocity_variance(d, self.config)):
+            spread[:, axis, axis] += variance * dt * dt
+        return spread
+
+    def _odds(self, second: Seeds, determinant: Floats) -> Floats:
+        """Return the odds of a second plot that lies just where it was expected."""
+        d = second.position.shape[1]
         others = np.maximum(self.density.total * second.clutter_volume, 1e-300)
-        return np.asarray(self.detection_probability * second.free * likelihood / others)
+        peak = 1.0 / np.sqrt((2.0 * np.pi) ** d * determinant)
+        return np.asarray(self.detection_probability * second.free * peak / others)
 
 
 def velocity_variance(d: int, config: InitiationConfig) -> Floats:

@@ -136,7 +136,7 @@ def test_belief_propagation_is_near_on_tight_clusters() -> None:
 
 @pytest.mark.parametrize('spread', [3.0, 1000.0])
 def test_what_has_no_loops_is_exact_at_any_size(spread: float) -> None:
-    """A chain of tracks, each sharing a plot with the next, needs neither table nor propagation."""
+    """A chain of tracks, each sharing a plot with the next, needs no table."""
     track, plot = np.repeat(np.arange(7), 2), np.repeat(np.arange(8), 2)[1:-1]
     _, _, log_weight, log_miss, _ = make_scene(6, 7, 2, 1.0, spread)
     scene = (track, plot, log_weight, log_miss, 8)

@@ -14,7 +14,7 @@ from tracking_core.birth import with_speed_prior
 from tracking_core.composition import Density
 from tracking_core.initiation import one_point, plane_start, two_point
 from tracking_core.lifecycle_config import InitiationConfig
-from tracking_core.new_contacts import share_of_new
+from tracking_core.new_contacts import Odds, share_of_new
 
 INTERVAL = 4.0
 LIMITS = InitiationConfig(speed_max=300.0, climb_max=20.0)
@@ -127,6 +127,14 @@ def test_two_point_takes_nothing() -> None:
         starts = start(seeds, fresh)
         assert starts.mean.shape == (0, 2, 2)
         assert starts.covariance.shape == (0, 2, 2, 2, 2)
+
+
+def test_odds_at_best_are_those_of_a_plot_in_the_same_place() -> None:
+    """The bound by which seeds are sorted out equals the odds of the pair without a step."""
+    seeds = plots([0.0, 0.0, 4.0], [[0.0, 5.0, 1.0], [40.0, 80.0, 8.0], [7.0, 7.0, 7.0]])
+    odds = Odds(Density(1e-9, 1e-9), 0.9, LIMITS)
+    pair = odds.of_pair(seeds, seeds, np.zeros((3, 3)), np.full(3, INTERVAL))
+    assert_allclose(odds.at_best(seeds, INTERVAL), pair, rtol=1e-12)
 
 
 def test_one_point_starts_at_rest_with_a_velocity_prior() -> None:
