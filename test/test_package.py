@@ -25,6 +25,15 @@ IMPORT_NAMES = {'pyyaml': 'yaml'}
 SHARED = {'launch', 'config', 'rviz', 'foxglove'}
 LAUNCH = {'launch', 'launch_ros'}  # no wheels: present on a ROS machine only
 
+# Looked up in rosdep/python.yaml (for Ubuntu) and jazzy/distribution.yaml of ros/rosdistro.
+ROSDEP_KEYS = {
+    'python3-hypothesis', 'python3-matplotlib', 'python3-numpy', 'python3-pytest',
+    'python3-scipy', 'python3-tqdm', 'python3-yaml',
+    'builtin_interfaces', 'diagnostic_msgs', 'geometry_msgs', 'launch', 'launch_ros',
+    'lifecycle_msgs', 'nav_msgs', 'rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'sensor_msgs',
+    'std_msgs', 'std_srvs', 'visualization_msgs',
+}  # fmt: skip
+
 
 @pytest.fixture(scope='module')
 def manifest() -> ElementTree.Element:
@@ -91,6 +100,14 @@ def test_python_dependencies_are_equal(
     keys = {f'python3-{name}' for name in _import_names(required) - NOT_IN_ROSDEP}
     declared = {key for key in _texts(manifest, 'exec_depend') if key.startswith('python3-')}
     assert keys == declared
+
+
+def test_every_dependency_has_a_rosdep_key(manifest: ElementTree.Element) -> None:
+    """`rosdep install` finds all of package.xml in Jazzy; what has no key is an extra of pip."""
+    tags = ('depend', 'build_depend', 'exec_depend', 'test_depend', 'buildtool_depend')
+    declared = set().union(*(_texts(manifest, tag) for tag in tags))
+    assert declared <= ROSDEP_KEYS
+    assert not {key for key in declared if key.endswith('-pip')}  # the build farm takes none
 
 
 def test_ros_extra_brings_the_ros_dependencies(manifest: ElementTree.Element) -> None:
