@@ -22,6 +22,7 @@ LIMITS = {
     'snr': (-1e3, 1e3),  # dB
     'amplitude': (-1e3, 1e3),  # dB
 }
+WITHOUT_REFERENCE = ('amplitude',)  # nobody can say which of its values are wrong
 WIDEST = 2.51 * np.pi  # a quarter turn more than one: compass angles have been turned already
 OUT_OF_RANGE = ('range below', 'range beyond')  # reasons that no fault is behind
 Check = tuple[str, Bools]  # a reason, and the rows (M,) that it holds for
@@ -40,7 +41,7 @@ def usable_values(read: Mapping[str, Floats]) -> tuple[dict[str, Floats], dict[s
         inside = (read[name] >= low) & (read[name] <= high)
         usable[name] = np.where(inside, read[name], np.nan)
         wrong = int(np.sum(~inside & ~np.isnan(read[name])))
-        if wrong:
+        if wrong and name not in WITHOUT_REFERENCE:
             doubtful[f'{name} outside [{low:g}, {high:g}]'] = wrong
     return usable, doubtful
 

@@ -118,3 +118,12 @@ def test_layouts_are_read_to_the_last_field(types):
     np.testing.assert_allclose(read['ars548_ros'].elevation, np.arctan(0.1))  # z is its height
     for name, offset in (('uint32 nanoseconds', 0.25), ('absolute float64 time', -0.25)):
         np.testing.assert_allclose(read[name].time - 1.7e9, [offset])
+
+
+def test_intensity_of_an_unknown_scale_is_left_alone(types):
+    """A driver that counts to 65535 is used as if it told nothing, without a complaint."""
+    columns = {**POLAR, 'intensity': 40_000.0}
+    msg = from_columns({k: np.array([v]) for k, v in columns.items()}, 100.0, 'radar', types)
+    reading = to_plots(msg, SensorConfig(), 9)
+    assert np.isnan(reading.plots.snr).all()
+    assert not reading.doubtful

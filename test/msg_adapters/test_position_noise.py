@@ -5,9 +5,12 @@
 import logging
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
+from hypothesis import given, settings
+from hypothesis import strategies as st
 import numpy as np
 import pytest
 
+from msg_adapters.fields import COVARIANCE
 from msg_adapters.message_types import rclpy_types
 from msg_adapters.plots import to_plots
 from msg_adapters.position_noise import position_covariance
@@ -96,3 +99,16 @@ def test_track_is_as_sure_as_the_poses_say():
         session.plots(pose(np.diag([400.0, 25.0, 9.0]), stamp, 5000.0 + 50.0 * step), stamp)
     _, covariance = session.tracks.planes[0].moments()
     assert 9.0 < covariance[0, 0, 0] / covariance[0, 2, 2] < 20.0  # 16 without process noise
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(st.floats(), min_size=9, max_size=9))
+def test_any_numbers_give_a_covariance_or_none(values):
+    """Whatever a message holds: positive definite where it is told, and no warning."""
+    names = [*COVARIANCE, 'x_sd', 'y_sd', 'z_sd']
+    read = {name: np.array([value]) for name, value in zip(names, values, strict=True)}
+    covariance, odd = position_covariance(read, 1)
+    told = covariance[0][: 2 + bool(np.isfinite(covariance[0, 2, 2]))]
+    told = told[:, : len(told)]
+    assert np.isnan(told).all() or np.all(np.linalg.eigvalsh(told) > 0.0)
+    assert odd in (0, 1)
