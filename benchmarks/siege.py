@@ -143,7 +143,8 @@ class Siege:
         return 'used' if self.session.instrument.tracker.state.next_id > before else 'refused'
 
     def _cancel(self, _: Any) -> str:
-        self.session.cancel(int(self.rng.choice([0, 2**31, 2**32 - 1])))
+        number = int(self.rng.choice([0, 2**31, 2**32 - 1]))
+        self.session.cancel(SimpleNamespace(data=number))
         return 'without a track'
 
     def _header(self) -> Any:

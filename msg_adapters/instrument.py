@@ -95,6 +95,12 @@ class Instrument(Protocol):
     def to_bodies(self) -> Bodies:
         """Return where confirmed contacts are, as far as that is known."""
 
+    def remember(self) -> dict[str, Any]:
+        """Return what the tracker knows, for a restart: batches, numbers, dictionaries of them."""
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Go on from what was remembered; ValueError where it does not fit."""
+
     def follow(self) -> None:
         """Take note of where the tracks are, for drawing; called after every message."""
 

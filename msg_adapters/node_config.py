@@ -39,6 +39,23 @@ class LateConfig:
 
 
 @dataclass(frozen=True)
+class SnapshotConfig:
+    """How tracks outlive their node."""
+
+    file: str = parameter(
+        '', unit='', doc='tracks are kept here for a restart of the node; empty: they are not'
+    )
+    period: float = parameter(5.0, unit='s', doc='time between two writings', low=0.1, high=3600.0)
+    max_age: float = parameter(
+        60.0, unit='s', doc='tracks that were kept longer ago are not restored', low=0.0, high=1e6
+    )
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
 class NodeConfig:
     """What a node needs beside the tracker's own parameters."""
 
@@ -47,6 +64,7 @@ class NodeConfig:
     fields: Any
     """Config with the message's name for each of our fields."""
     scan: LateConfig = field(default_factory=LateConfig)
+    snapshot: SnapshotConfig = field(default_factory=SnapshotConfig)
     tracking_frame: str = parameter(
         '', unit='', doc='frame of the tracks; empty: that of own ship or, without, of the plots'
     )

@@ -55,8 +55,8 @@ class Session:
         self.whereabouts = Whereabouts(node_config)
         history = History(node_config.scan.late, node_config.time_jump_threshold)
         self._follower = Follower(instrument, history)
-        self._node_config, self._types, self._log = node_config, types, log
-        self._published = instrument.tracker.tracks
+        self._node_config, self.types, self.log = node_config, types, log
+        self.published = instrument.tracker.tracks
         self._forget()
 
     def _forget(self) -> None:
@@ -66,9 +66,9 @@ class Session:
         self.whereabouts.reset()
         name, is_mounted = self._node_config.tracking_frame, self.instrument.is_mounted
         is_moving = self.whereabouts.transforms is not None
-        self.frame = TrackingFrame(name, is_mounted, self._log.info, moving=is_moving)
+        self.frame = TrackingFrame(name, is_mounted, self.log.info, moving=is_moving)
         self.stamp: Any = None  # of the last plots that were used
-        self._mapping: dict[str, str] = {}
+        self.mapping: dict[str, str] = {}
 
     def use_transforms(self, transforms: Transforms) -> None:
         """Take the place of the sensor from these; ValueError if a mount is set too."""
@@ -93,8 +93,8 @@ class Session:
 
     def header(self) -> Any:
         """Return a header with the stamp of the last plots, in the tracking frame."""
-        stamp = self._types.Time(sec=self.stamp.sec, nanosec=self.stamp.nanosec)
-        return self._types.Header(stamp=stamp, frame_id=self.frame.name)
+        stamp = self.types.Time(sec=self.stamp.sec, nanosec=self.stamp.nanosec)
+        return self.types.Header(stamp=stamp, frame_id=self.frame.name)
 
     def plots(self, msg: Any, received: float) -> Any | None:
         """
@@ -119,7 +119,7 @@ class Session:
         return None
 
     def _follow(self, msg: Any, received: float) -> Any:
-        reading = self.instrument.read(msg, self._mapping)
+        reading = self.instrument.read(msg, self.mapping)
         self.frame.check_plots(reading.plots.frame)
         plots, history = reading.plots, self._follower.history
         uses_platform = self.instrument.uses_platform(self.frame)
@@ -131,14 +131,14 @@ class Session:
             return None
         if self._accept(plots.stamp, received):
             moved = f'time moved to {plots.stamp:.3f} (a recording that began anew?)'
-            self._log.warning(f'{moved}: tracking starts anew')
+            self.log.warning(f'{moved}: tracking starts anew')
             history.reset()
             self.instrument.tracker.reset()
         tracks = self._follower.step(plots, platform, self.frame)
         self._use(reading)
         self.stamp = msg.header.stamp
-        table = self.instrument.to_table(self._published, self.header())
-        self._published = tracks
+        table = self.instrument.to_table(self.published, self.header())
+        self.published = tracks
         return table
 
     def _accept(self, stamp: float, received: float) -> bool:
@@ -154,19 +154,19 @@ class Session:
         """Count the rows of a message that is accepted, and say once which fields are used."""
         rows = len(reading.plots)
         self.ledger.use(self.instrument.topic, rows, reading.dropped, reading.doubtful)
-        if rows and not self._mapping:
+        if rows and not self.mapping:
             used = ', '.join(f'{ours}: {theirs}' for ours, theirs in reading.mapping.items())
-            self._log.info(f'fields of the {self.instrument.topic} in use: {used}')
+            self.log.info(f'fields of the {self.instrument.topic} in use: {used}')
             if reading.note:
-                self._log.warning(reading.note)
-            self._mapping = reading.mapping
+                self.log.warning(reading.note)
+            self.mapping = reading.mapping
 
     def ownship(self, msg: Any, received: float) -> None:
         """Take one odometry of the platform."""
         try:
             sample = to_platform(msg)
             if self.frame.check_ownship(msg.header.frame_id.lstrip('/')):
-                self._log.warning('own ship appeared: tracking starts anew in its frame')
+                self.log.warning('own ship appeared: tracking starts anew in its frame')
                 self._follower.history.reset()
                 self.instrument.tracker.reset()
             self.whereabouts.take(sample, received)
@@ -184,14 +184,15 @@ class Session:
                 raise BadMessage('no room', f'there are {most} tracks already (max_tracks)')
             track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
             self._follower.history.close()
-            self._log.info(f'track {track_id} started at {position} m')
+            self.log.info(f'track {track_id} started at {position} m')
         except BadMessage as error:
             self.ledger.refuse('acquire', error.reason, error)
 
-    def cancel(self, track_id: int) -> None:
-        """Drop one track."""
+    def cancel(self, msg: Any) -> None:
+        """Drop one track, as a UInt32 says."""
+        track_id = msg.data
         if self.instrument.tracker.drop_track(track_id):
             self._follower.history.close()
-            self._log.info(f'track {track_id} dropped')
+            self.log.info(f'track {track_id} dropped')
         else:
             self.ledger.warn('cancel', f'cancel: there is no track {track_id}')

@@ -53,6 +53,16 @@ class StampGuard:
         """Forget all stamps; the next one is believed."""
         self._newest, self._interval, self._strangers, self._moved = None, 0.0, [], False
 
+    def remember(self) -> dict[str, float | None]:
+        """Return the newest stamp and the usual interval, for a restart."""
+        return {'newest': self._newest, 'interval': self._interval}
+
+    def recall(self, memory: dict[str, float | None], received: float) -> None:
+        """Go on as if the newest stamp had been received then [s]."""
+        self.reset()
+        self._newest, self._received = memory['newest'], received
+        self._interval = memory['interval'] or 0.0
+
     def clock_moved(self) -> None:
         """Take note that the ROS clock went back: the next stamp that did so too is believed."""
         self._moved = True

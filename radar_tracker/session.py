@@ -22,6 +22,7 @@ from msg_adapters.session import Session
 from msg_adapters.tracks import from_tracks, kinematics, to_bodies
 from msg_adapters.trails import Trails
 from radar_tracker.config import MountConfig, RadarTrackerConfig
+from radar_tracker.memory import recall, remember
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Floats, Plots, Tracks
 from tracking_core.platform import Platform
@@ -102,6 +103,14 @@ class RadarInstrument:
         """Return the confirmed tracks."""
         tracks = self.tracker.tracks
         return to_bodies(take(tracks, tracks.confirmed), self.tracker.config.output)
+
+    def remember(self) -> dict[str, Any]:
+        """Return what the tracker knows, for a restart."""
+        return remember(self.tracker)
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Go on from what was remembered; ValueError where it does not fit."""
+        recall(self.tracker, memory)
 
     def follow(self) -> None:
         """Lengthen the trails."""

@@ -21,6 +21,7 @@ from msg_adapters.node_config import NodeConfig
 from msg_adapters.reading import Reading
 from msg_adapters.session import Session
 from sonar_tracker.config import MountConfig, SonarTrackerConfig
+from sonar_tracker.memory import recall, remember
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings, Tracks
 from tracking_core.linalg import wrap_angle
@@ -100,6 +101,14 @@ class SonarInstrument:
         """Return the confirmed tracks whose range is known."""
         tracks = self.tracker.tracks
         return located_bodies(tracks, self.tracker.ranges(), tracks.confirmed)
+
+    def remember(self) -> dict[str, Any]:
+        """Return what the tracker knows, for a restart."""
+        return remember(self.tracker)
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Go on from what was remembered; ValueError where it does not fit."""
+        recall(self.tracker, memory)
 
     def follow(self) -> None:
         """Do nothing: fans have no trails."""

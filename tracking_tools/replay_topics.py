@@ -80,7 +80,7 @@ class Topics:
             'plots': session.plots,
             'ownship': session.ownship,
             'acquire': lambda msg, _: session.acquire(msg),
-            'cancel': lambda msg, _: session.cancel(msg.data),
+            'cancel': lambda msg, _: session.cancel(msg),
         }
         names = {'plots': self.sensor}
         return {

@@ -29,6 +29,7 @@ from msg_adapters.live.waiting import Waiting
 from msg_adapters.message_types import rclpy_types
 from msg_adapters.node import arrival_time, explain_silence
 from msg_adapters.session import Session
+from msg_adapters.snapshots.keeper import Keeper
 
 Configs = tuple[Any, ...]
 MakeSession = Callable[..., Session]
@@ -55,8 +56,8 @@ class LiveTopics:
         self._node, self._node_config, self._types = node, configs[1], rclpy_types()
         self._session = make_session(*configs, self._types, node.get_logger())
         self._topic = self._session.instrument.topic
-        self._display = Display(self._types)
-        self._health = Health(time.monotonic())
+        self._keeper = Keeper(self._session, configs)
+        self._display, self._health = Display(self._types), Health(time.monotonic())
         self._clock_check = ClockCheck(node, self._topic)
         self._level, self._is_active, self._is_heard = '', False, False
         self._openings = Openings(node)
@@ -71,8 +72,8 @@ class LiveTopics:
         subscriptions = {  # of two that are there, the executor takes the first
             'ownship': hear(Odometry, 'ownship', self._on_ownship),
             self._topic: hear(input_class, self._topic, self._on_plots),
-            'acquire': hear(PointStamped, 'acquire', self._on_acquire),
-            'cancel': hear(UInt32, 'cancel', self._on_cancel),
+            'acquire': hear(PointStamped, 'acquire', self._order(self._session.acquire)),
+            'cancel': hear(UInt32, 'cancel', self._order(self._session.cancel)),
         }
         self._inputs = Inputs(subscriptions, self._session.ledger)
         self._tracks = tell(PointCloud2, '~/tracks')
@@ -81,6 +82,7 @@ class LiveTopics:
         self._diagnostics = openings.tell_always(DiagnosticArray, '/diagnostics')
         openings.serve(Trigger, '~/reset', self._on_reset)
         openings.every(1.0, self._tick)
+        self._keeper.open(openings.every, arrival_time(self._node))
         self._follow_transforms(openings)
         openings.when_clock_goes_back(self._session.guard.clock_moved)
 
@@ -93,7 +95,8 @@ class LiveTopics:
             openings.every(RETRY, self._waiting.retry)
 
     def close(self) -> None:
-        """Give all topics back."""
+        """Give all topics back, and keep the tracks where that is wanted."""
+        self._keeper.save()
         self._openings.close()
 
     def activate(self) -> None:
@@ -127,6 +130,7 @@ class LiveTopics:
     def _use_plots(self, msg: Any, info: Any) -> None:
         self._health.step_begins()
         table = self._session.plots(msg, arrival_time(self._node))
+        self._keeper.reserve_ids()
         if table is not None:
             self._tracks.publish(table)
             self._show()
@@ -155,16 +159,13 @@ class LiveTopics:
             self._health.ownship_at = time.monotonic()
             self._session.ownship(msg, arrival_time(self._node))
 
-    def _on_acquire(self, msg: Any) -> None:
-        if self._is_active:
-            self._session.acquire(msg)
-
-    def _on_cancel(self, msg: Any) -> None:
-        if self._is_active:
-            self._session.cancel(msg.data)
+    def _order(self, give: Callable[[Any], None]) -> Callable[[Any], None]:
+        """Return a callback that hands orders on while the node is active."""
+        return lambda msg: give(msg) if self._is_active else None
 
     def _on_reset(self, _: Any, response: Any) -> Any:
         self._session.reset()
+        self._keeper.save()
         response.success, response.message = True, 'all tracks are forgotten'
         self._node.get_logger().info('reset: all tracks are forgotten')
         return response
@@ -176,9 +177,8 @@ class LiveTopics:
             self._draw()
         if self._is_active and not self._is_heard and now - self._health.started > QUIET:
             self._is_heard = True
-            self._node.get_logger().warning(
-                explain_silence(self._node, self._inputs.subscriptions[self._topic])
-            )
+            silent = self._inputs.subscriptions[self._topic]
+            self._node.get_logger().warning(explain_silence(self._node, silent))
         self._level = ''
         self._report()
         self._health.told(self._session)
@@ -186,9 +186,8 @@ class LiveTopics:
     def _report(self) -> None:
         """Publish the diagnostics if their level is not the one that was said last."""
         now = time.monotonic()
-        level, text = self._health.level(self._session, now)
-        if not self._is_active:
-            level, text = 'OK', 'not active'
+        active = self._is_active
+        level, text = self._health.level(self._session, now) if active else ('OK', 'not active')
         if level == self._level:
             return
         self._level, values = level, self._health.values(self._session, now)

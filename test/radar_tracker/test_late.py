@@ -3,6 +3,7 @@
 """Plots that come late are used at their own time: the tracks are those of the right order."""
 
 import logging
+from types import SimpleNamespace
 
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
@@ -131,7 +132,7 @@ def test_commands_of_a_user_are_not_undone() -> None:
     messages, session = scans(1, 20), radar()
     tables = run(session, [*messages[:16], messages[17]])
     number = int(tables[-1]['id'][tables[-1]['status'] == 1][0])
-    session.cancel(number)
+    session.cancel(SimpleNamespace(data=number))
     run(session, [messages[16], messages[18]])
     assert session.counts['plots'].late_dropped == 1
     assert number not in session.tracks.id
