@@ -17,7 +17,13 @@ from tqdm import tqdm
 from tracking_tools.bags import BagWriter, NANOSECONDS, open_bag
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.replay import POINT_CLOUD, RADAR
-from tracking_tools.replay_topics import check_topics, messages_of, Topics
+from tracking_tools.replay_topics import (
+    check_topics,
+    DIAGNOSTIC_ARRAY,
+    DIAGNOSTICS,
+    messages_of,
+    Topics,
+)
 from tracking_tools.sensors import Sensor
 
 
@@ -70,12 +76,15 @@ def play(
             BagWriter(tracks) as out,
         ):
             out.announce(topics.tracks, POINT_CLOUD)
+            told = player.watch_health(DIAGNOSTICS)
             player.find_tracker()
             for topic, received, raw in _paced(bag, player.wait, rate, (topics.plots, own_ship)):
                 if topic == own_ship:
                     player.tell_own_ship(raw)
                     continue
                 out.write_raw(topics.tracks, POINT_CLOUD, _answer(player, raw, log), received)
+                while told:
+                    out.write_raw(DIAGNOSTICS, DIAGNOSTIC_ARRAY, told.pop(0), received)
     if node.exit_code:
         raise NodeFailed(f'the node ended with code {node.exit_code}; see {log}')
 

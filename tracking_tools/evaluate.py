@@ -14,6 +14,7 @@ from rosbags.highlevel import AnyReaderError
 
 from tracking_tools.bags import BadBag
 from tracking_tools.evaluation import evaluate, to_json, to_text, Yardstick
+from tracking_tools.evaluation.reading import find_sensor
 from tracking_tools.sensors import SENSORS
 
 
@@ -21,15 +22,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = _parser()
     chosen = parser.parse_args(arguments)
-    scale = math.radians(1.0) if chosen.sensor == 'sonar' else 1.0
     try:
+        sensor, _ = find_sensor(chosen.tracks, chosen.remap, chosen.sensor)
+        scale = math.radians(1.0) if sensor == 'sonar' else 1.0
         yardstick = Yardstick(
             None if chosen.radius is None else scale * chosen.radius,
             None if chosen.cutoff is None else scale * chosen.cutoff,
             chosen.gospa_power, chosen.ospa_power, math.radians(chosen.turning),
         )  # fmt: skip
         truth = chosen.tracks if chosen.truth is None else chosen.truth
-        judgement = evaluate(chosen.tracks, truth, yardstick, chosen.remap, chosen.sensor)
+        judgement = evaluate(chosen.tracks, truth, yardstick, chosen.remap, sensor)
         if chosen.json is not None:
             chosen.json.parent.mkdir(parents=True, exist_ok=True)
             chosen.json.write_text(to_json(judgement) + '\n')

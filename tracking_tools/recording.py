@@ -15,6 +15,7 @@ import struct
 import time
 from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import PointCloud2
 
@@ -60,10 +61,14 @@ class Player:
         self._tracks = peer.hear(PointCloud2, tracks, self._answers, raw=True)
         self._own_ship = peer.tell(Odometry, own_ship) if own_ship else None
 
-    def watch(self, kind: Any, topic: str) -> list[Any]:
-        """Return a list that grows by every message of another topic."""
+    def watch_health(self, topic: str) -> list[Any]:
+        """Return a list that grows by every serialised message of diagnostics."""
+        return self.watch(DiagnosticArray, topic, raw=True)
+
+    def watch(self, kind: Any, topic: str, raw: bool = False) -> list[Any]:
+        """Return a list that grows by every message of another topic, serialised if `raw`."""
         seen: list[Any] = []
-        self._peer.hear(kind, topic, seen)
+        self._peer.hear(kind, topic, seen, raw=raw)
         return seen
 
     def wait_for(self, is_done: Callable[[], object], what: str) -> None:

@@ -17,6 +17,7 @@ from msg_adapters.session import Session
 from tracking_tools.bags import absolute, BadBag
 from tracking_tools.sensors import Sensor, SENSORS
 
+DIAGNOSTICS, DIAGNOSTIC_ARRAY = '/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray'
 TYPES = {
     'ownship': 'nav_msgs/msg/Odometry',
     'acquire': 'geometry_msgs/msg/PointStamped',

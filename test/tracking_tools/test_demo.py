@@ -67,9 +67,11 @@ def test_demo_ends_with_tracks_and_a_picture(cut_bag, tmp_path):
     assert 'of the time' in said
     assert '0 id switches' in said
     assert (tmp_path / 'demo.png').read_bytes().startswith(b'\x89PNG')
+    assert '<title>turns_40</title>' in (tmp_path / 'demo.html').read_text()
     with open_bag(tmp_path / 'demo_tracks') as bag:
+        chosen = [c for c in bag.connections if c.topic == '/radar_tracker/tracks']
         tables = [
-            to_columns(bag.deserialize(raw, c.msgtype), 1000) for c, _, raw in bag.messages()
+            to_columns(bag.deserialize(raw, c.msgtype), 1000) for c, _, raw in bag.messages(chosen)
         ]
     assert len(tables) == 40
     assert np.sum(tables[-1]['status'] == 1) >= 5
@@ -98,7 +100,11 @@ def test_demo_without_a_node_gives_the_same_files(cut_bag, tmp_path, capsys):
     for _ in range(2):
         assert main(arguments) == 0
     assert 'of the time' in capsys.readouterr().out
-    assert {path.name for path in tmp_path.iterdir()} == {'demo.png', 'demo_tracks'}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        'demo.html',
+        'demo.png',
+        'demo_tracks',
+    }
 
 
 def test_demo_removes_nothing_but_bags(cut_bag, tmp_path, capsys):

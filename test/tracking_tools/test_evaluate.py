@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 import json
 from pathlib import Path
+import re
 from typing import Any
 
 import numpy as np
@@ -30,13 +31,15 @@ MakeBag = Callable[..., Path]
 def make_bag(tmp_path: Path) -> MakeBag:
     """Return a function that writes a bag of tables: {topic: {scan: columns}}."""
 
-    def make_bag(name: str, topics: Mapping[str, Mapping[int, Columns]]) -> Path:
+    def make_bag(
+        name: str, topics: Mapping[str, Mapping[int, Columns]], frames: Mapping[str, str] = {}
+    ) -> Path:
         with BagWriter(tmp_path / name) as bag:
             for topic, tables in topics.items():
                 bag.announce(topic, CLOUD)
                 for scan, columns in tables.items():
                     time = EPOCH + PERIOD * scan
-                    msg = from_columns(columns, time, 'map', rosbags_types())
+                    msg = from_columns(columns, time, frames.get(topic, 'map'), rosbags_types())
                     bag.write(topic, msg, nanoseconds(time))
         return tmp_path / name
 
@@ -95,7 +98,7 @@ def test_evaluate_of_known_tracks(make_bag: MakeBag) -> None:
     assert found.per_contact[0].tracks == (11, 12)
 
 
-def test_evaluate_of_bearings_from_a_moving_ship(make_bag: MakeBag) -> None:
+def test_evaluate_of_bearings(make_bag: MakeBag, capsys: pytest.CaptureFixture[str]) -> None:
     """A track 0.001 rad beside the true bearing is 0.001 rad off, and half a sd of 0.002."""
     bearing = np.array([np.arctan2(5_000.0, 100.0 * PERIOD * k) for k in range(SCANS)])
 
@@ -114,6 +117,9 @@ def test_evaluate_of_bearings_from_a_moving_ship(make_bag: MakeBag) -> None:
     assert_allclose(found.accuracy.rmse, 0.001, rtol=1e-4)  # truth is in float32
     assert_allclose(found.nees_position.mean, 0.25, rtol=1e-3)
     assert found.held.coverage == 1.0
+    for radius, said in (('0.05', '0.00%'), ('0.06', '100.00%')):  # it is 0.0573 deg off
+        assert main([str(tracks), '--truth', str(truth), '--radius', radius]) == 0
+        assert re.search(f'^coverage +{said}', capsys.readouterr().out, re.MULTILINE)
 
 
 def test_evaluate_command_writes_json_and_a_table(
@@ -178,6 +184,13 @@ def test_evaluate_says_what_is_missing(
     assert main([str(bag), '--truth', str(bag)]) == 1
     assert capsys.readouterr().err.startswith('evaluate: ')
     with pytest.raises(ValueError, match=reason):
+        evaluate(bag, bag)
+
+
+def test_evaluate_refuses_another_frame(make_bag: MakeBag) -> None:
+    """Places in two frames are not compared; the reason names both."""
+    bag = make_bag('bag', FINE, {'/truth': 'utm'})
+    with pytest.raises(ValueError, match=r'in frame map, the truth of .* in frame utm'):
         evaluate(bag, bag)
 
 

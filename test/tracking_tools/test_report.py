@@ -14,9 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.testing import assert_allclose
 import pytest
+from rosbags.typesys import get_typestore, Stores
 
 pytest.importorskip('bokeh', reason='bokeh (extra report) is not installed')
 
+from msg_adapters.message_types import rosbags_types
 from tracking_tools.bags import BagWriter, open_bag
 from tracking_tools.replay import main as replay_main
 from tracking_tools.replay_topics import Topics
@@ -151,6 +153,24 @@ def test_report_command_on_tracks_alone(
     for what in ('Without a truth', 'The parameters were not given', 'does not tell how long'):
         assert what in html
     assert content_of(html)['plots'] == content_of(html)['truth'] == {}
+
+
+def test_gather_finds_the_step_times_of_a_live_node(replayed: Path, tmp_path: Path) -> None:
+    """What the node told in its diagnostics is there, whoever recorded them."""
+    types = get_typestore(Stores.ROS2_JAZZY).types
+    status = types['diagnostic_msgs/msg/DiagnosticStatus']
+    value = types['diagnostic_msgs/msg/KeyValue']
+    array = types['diagnostic_msgs/msg/DiagnosticArray']
+    header = rosbags_types().header(1.0, '')
+    with BagWriter(tmp_path / 'tracks') as out, open_bag(replayed / 'tracks') as bag:
+        for connection, time, raw in bag.messages():
+            out.write_raw(connection.topic, connection.msgtype, raw, time)
+        for taken in ('0.004', '0.006'):
+            values = [value('tracks', '7'), value('step time [s]', taken)]
+            told = [status(level=0, name='', message='', hardware_id='', values=values)]
+            out.write('diagnostics', array(header=header, status=told), time)
+    found = gather(Sources('radar', Topics(), tmp_path / 'tracks'))
+    assert found.step_times.tolist() == [0.004, 0.006]
 
 
 @pytest.mark.parametrize('bag', ['nothing', 'recording'])

@@ -9,11 +9,16 @@ from pathlib import Path
 import shutil
 from typing import Any
 
+import numpy as np
 import pytest
 
+from msg_adapters.message_types import rosbags_types
+from msg_adapters.table import Columns, from_columns
+from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.replay import main as replay_main
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report.material import gather, Sources
+from tracking_tools.sensors import SENSORS
 
 pytest.importorskip('bokeh', reason='bokeh (extra report) is not installed')
 pytest.importorskip('playwright', reason='playwright (extra test) is not installed')
@@ -58,9 +63,8 @@ def html(cut_bag: Callable[[int], Path], tmp_path_factory: pytest.TempPathFactor
     return folder / 'page.html'
 
 
-@pytest.fixture(scope='module')
-def opened(browser: Any, html: Path) -> Iterator[Any]:
-    """Yield the open page, with what it complained about and what it asked the network for."""
+def open_page(browser: Any, html: Path) -> Any:
+    """Return an open page, with what it complains about and what it asks the network for."""
     tab = browser.new_page(viewport={'width': 1366, 'height': 768})
     tab.wrong = []
     tab.on('pageerror', lambda error: tab.wrong.append(str(error)))
@@ -74,6 +78,13 @@ def opened(browser: Any, html: Path) -> Iterator[Any]:
     values = measure.send('Performance.getMetrics')['metrics']
     tab.main_thread = {value['name']: value['value'] for value in values}['TaskDuration']
     tab.begin_with = tab.evaluate('() => document.activeElement.id')
+    return tab
+
+
+@pytest.fixture(scope='module')
+def opened(browser: Any, html: Path) -> Iterator[Any]:
+    """Yield the open page of the demo scene."""
+    tab = open_page(browser, html)
     yield tab
     tab.close()
 
@@ -185,3 +196,45 @@ def test_layers_and_colours_can_be_chosen(page: Any) -> None:
     maps = """() => ['existence', 'manoeuvre', 'light'].map(
         (name) => contactTracks.models[`overview_${name}`].visible)"""
     assert page.evaluate(maps) == [False, False, True]
+
+
+def bearings_at(k: int) -> tuple[Columns, Columns]:
+    """Return the track table and the marks of a cycle: two contacts that cross."""
+    bearing = np.array([1.0 - 0.01 * k, 0.8 + 0.01 * k])
+    one = np.ones(2, np.float32)
+    common = {'existence_probability': one, 'manoeuvre_probability': 0 * one, 'nis': one,
+              'p_0': one, 'gate': 0.02 * one, 'time': 0 * one}  # fmt: skip
+    tracks = {
+        'id': np.array([1, 2], np.uint32), 'status': np.ones(2, np.uint8), 'bearing': bearing,
+        'bearing_rate': 0 * one, 'bearing_sd': 0.01 * one, 'bearing_rate_sd': one,
+        'coasted': np.zeros(2, np.uint8), 'range': one * np.nan, 'range_sd': one * np.nan,
+        **common,
+    }  # fmt: skip
+    return tracks, {'bearing': bearing.astype(np.float32)}
+
+
+def test_page_of_a_sonar_is_a_record_of_bearings(browser: Any, tmp_path: Path) -> None:
+    """Time runs down, marks are there from the beginning, tracks can be chosen, time goes by."""
+    with BagWriter(tmp_path / 'bag') as bag:
+        for k in range(20):
+            for topic, columns in zip(('sonar_tracker/tracks', 'bearings'), bearings_at(k),
+                                      strict=True):  # fmt: skip
+                msg = from_columns(columns, 100.0 + 2.0 * k, 'map', rosbags_types())
+                bag.write(topic, msg, nanoseconds(100.0 + 2.0 * k))
+    topics = Topics.of(SENSORS['sonar'])
+    sources = Sources('sonar', topics, tmp_path / 'bag', tmp_path / 'bag')
+    write_page(gather(sources), tmp_path / 'page.html')
+    page = open_page(browser, tmp_path / 'page.html')
+    ends = '() => (({start, end}) => start > end)(contactTracks.models.stage.y_range)'
+    assert page.evaluate(ends)
+    assert page.evaluate('() => contactTracks.models.all_plots.data.x.length') == 40
+    page.keyboard.press('ArrowDown')
+    page.keyboard.press('End')
+    page.keyboard.press('ArrowLeft')
+    assert state(page, 's.time') == pytest.approx(36.0)
+    shown = page.evaluate('() => contactTracks.models.now.data')
+    degrees = [90.0 - np.degrees(1.0 - 0.18), 90.0 - np.degrees(0.8 + 0.18)]
+    assert shown['x'] == pytest.approx(degrees, abs=1e-3)
+    assert 'deg' in page.inner_text('#facts')
+    assert not page.wrong
+    page.close()

@@ -119,7 +119,8 @@ def test_demo_without_a_node_tells_and_draws(heard, tmp_path, capsys):
     assert demo_main([str(a) for a in arguments], DEMO) == 0
     said = capsys.readouterr().out
     assert 'not observable' in said
-    assert {path.name for path in tmp_path.iterdir()} == {'demo_sonar.png', 'demo_sonar_tracks'}
+    files = {f'demo_sonar{end}' for end in ('.html', '.png', '_tracks')}
+    assert {path.name for path in tmp_path.iterdir()} == files
     assert (tmp_path / 'demo_sonar.png').stat().st_size < 400_000
 
 

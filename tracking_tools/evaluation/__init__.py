@@ -9,7 +9,8 @@ and ``text`` (how they are shown) in this order.
 
 from tracking_tools.evaluation.judgement import Judgement
 from tracking_tools.evaluation.judging import evaluate, judge, Yardstick
-from tracking_tools.evaluation.reading import read_recorded, Recorded
+from tracking_tools.evaluation.reading import read_recorded
+from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.evaluation.text import to_json, to_text
 
 __all__ = [

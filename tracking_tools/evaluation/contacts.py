@@ -8,7 +8,7 @@ import numpy as np
 
 from tracking_core.rows import take
 from tracking_tools.evaluation.judgement import ContactJudgement
-from tracking_tools.evaluation.reading import Recorded
+from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.scoring import Matches, Targets, track_error
 from tracking_tools.scoring.continuity import find_changes
 from tracking_tools.scoring.onsets import find_onsets

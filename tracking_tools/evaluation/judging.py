@@ -24,7 +24,8 @@ from tracking_tools.evaluation.judgement import (
     Timing,
 )
 from tracking_tools.evaluation.ranges import judge_ranges
-from tracking_tools.evaluation.reading import read_recorded, Recorded
+from tracking_tools.evaluation.reading import read_recorded
+from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.evaluation.tracks import judge_tracks
 from tracking_tools.scoring import continuity, GospaParts, Matches, Targets, track_error
 from tracking_tools.scoring.accuracy import normalised

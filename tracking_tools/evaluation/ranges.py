@@ -9,7 +9,7 @@ import numpy as np
 from tracking_core.batches import Floats
 from tracking_core.rows import take
 from tracking_tools.evaluation.judgement import Ranges
-from tracking_tools.evaluation.reading import Recorded
+from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.scoring import Matches
 from tracking_tools.scoring.consistency import consistency
 

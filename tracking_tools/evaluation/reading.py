@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,48 +17,14 @@ from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Floats
 from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.bearing_scene import read_platform
+from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.evaluation.rows import bearing_rows, NEEDED, position_rows
 from tracking_tools.evaluation.truths import bearings_of, positions_of, ranges_of
 from tracking_tools.replay_topics import inventory, Topics
-from tracking_tools.scene import choose, read_rows, table_rows
-from tracking_tools.scoring import TrackRows, Truth
+from tracking_tools.scene import choose, frame_of, read_rows, table_rows
 from tracking_tools.sensors import SENSORS
 
 POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
-
-
-@dataclass(frozen=True)
-class Recorded:
-    """Confirmed tracks of one recording and what was really there."""
-
-    sensor: str  # 'radar' or 'sonar'
-    rows: TrackRows  # sonar: one coordinate, the bearing
-    table: Columns  # all columns of these rows
-    truth: Truth
-    starts: Floats  # (K + 1,) when each scan begins, and when the last one ends [s]
-    has_velocity: bool  # whether the truth tells velocities
-    ranges: Columns | None = None  # sonar: id, time, range [m] of the truth
-
-    @property
-    def scans(self) -> int:
-        """How many track tables there are."""
-        return len(self.starts) - 1
-
-    @property
-    def manoeuvre_probability(self) -> Floats:
-        """Of each row (N,); NaN where the table does not tell."""
-        told = self.table.get('manoeuvre_probability', np.full(len(self.rows), np.nan))
-        return np.asarray(told, np.float64)
-
-    @property
-    def plot_size(self) -> int:
-        """How many coordinates a plot has, which its NIS is of."""
-        return int(self.rows.position.shape[1])
-
-    @property
-    def duration(self) -> float:
-        """How long the tracks were recorded [s]."""
-        return float(self.starts[-1] - self.starts[0])
 
 
 def read_recorded(
@@ -102,6 +68,7 @@ def read_tracks(
     """Return what `read_recorded` returns, where the sensor and its topics are known."""
     table, stamps = _read_tracks(tracks, topics, NEEDED[kind])
     real = read_table(truth, topics.truth, ('id', 'x', 'y'))
+    _check_frames(tracks, topics.tracks, truth, topics.truth)
     _check_overlap(stamps, real['time'], tracks, truth)
     ranges = None
     if kind == 'sonar':
@@ -182,6 +149,15 @@ def _check_topic(bag: Path | str, topic: str) -> None:
                 f'{bag} has no topic {topic} of type {POINT_CLOUD}; it has {inventory(reader)}. '
                 'Say which it is with --remap FROM:=/TOPIC'
             )
+
+
+def _check_frames(tracks: Path | str, table: str, truth: Path | str, real: str) -> None:
+    """Raise BadBag where both tables say in which frame they are, and not in the same."""
+    ours, theirs = frame_of(tracks, table), frame_of(truth, real)
+    if ours and theirs and ours != theirs:
+        raise BadBag(
+            f'the tracks of {tracks} are in frame {ours}, the truth of {truth} in frame {theirs}'
+        )
 
 
 def _check_overlap(stamps: Floats, real: Floats, tracks: Path | str, truth: Path | str) -> None:

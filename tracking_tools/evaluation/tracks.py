@@ -10,7 +10,7 @@ import numpy as np
 
 from tracking_core.rows import take
 from tracking_tools.evaluation.judgement import TrackJudgement
-from tracking_tools.evaluation.reading import Recorded
+from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.scoring import Matches, track_error
 from tracking_tools.scoring.continuity import purity
 

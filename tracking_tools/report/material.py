@@ -17,11 +17,11 @@ from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
 from tracking_tools.evaluation import judge, Judgement, Yardstick
 from tracking_tools.evaluation.reading import read_tracks
-from tracking_tools.replay_topics import Topics
+from tracking_tools.replay_topics import DIAGNOSTICS, Topics
 from tracking_tools.scene import read_scene, Scene
 from tracking_tools.sensors import Configs, SENSORS
 
-DIAGNOSTICS, STEP_TIME = '/diagnostics', 'step time [s]'
+STEP_TIME = 'step time [s]'
 
 
 class Setting(NamedTuple):

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -37,7 +38,7 @@ class TrackRows:
         """Return places (K, d) as seen from these rows: bearings in the turn of the row's."""
         return nearest_turn(place, self.position[row]) if self.angular else place
 
-    @property
+    @cached_property
     def is_new(self) -> Bools:
         """Which rows (N,) tell of another look than the rows of the track before it."""
         _, first = np.unique(np.stack([self.id, self.time], axis=1), axis=0, return_index=True)
