@@ -96,6 +96,11 @@ class NodeConfig:
         2.0, unit='s', doc='plots may be so far from the nearest odometry of own ship', low=0.0,
         high=3600.0,
     )  # fmt: skip
+    ownship_leap: float = parameter(
+        100.0, unit='m', low=0.0, high=1e6,
+        doc='a place of own ship further from where its last ones led is refused until several in '
+        'a row agree; 0: none is',
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""

@@ -130,10 +130,7 @@ class Session:
             self.counts[self.instrument.topic].late_used += 1
             return None
         if self._accept(plots.stamp, received):
-            moved = f'time moved to {plots.stamp:.3f} (a recording that began anew?)'
-            self.log.warning(f'{moved}: tracking starts anew')
-            history.reset()
-            self.instrument.tracker.reset()
+            self._start_anew(f'time moved to {plots.stamp:.3f} (a recording that began anew?)')
         tracks = self._follower.step(plots, platform, self.frame)
         self._use(reading)
         self.stamp = msg.header.stamp
@@ -146,9 +143,14 @@ class Session:
         try:
             return self.guard.accept(stamp, received)
         except BadMessage:
-            is_late = self._follower.history.has_lost(stamp)
-            self.counts[self.instrument.topic].late_dropped += is_late
+            late = self._follower.history.has_lost(stamp)
+            self.counts[self.instrument.topic].late_dropped += late
             raise
+
+    def _start_anew(self, why: str) -> None:
+        self.log.warning(f'{why}: tracking starts anew')
+        self._follower.history.reset()
+        self.instrument.tracker.reset()
 
     def _use(self, reading: Reading[Any]) -> None:
         """Count the rows of a message that is accepted, and say once which fields are used."""
@@ -165,11 +167,9 @@ class Session:
         """Take one odometry of the platform."""
         try:
             sample = to_platform(msg)
-            if self.frame.check_ownship(msg.header.frame_id.lstrip('/')):
-                self.log.warning('own ship appeared: tracking starts anew in its frame')
-                self._follower.history.reset()
-                self.instrument.tracker.reset()
-            self.whereabouts.take(sample, received)
+            appeared = self.frame.check_ownship(msg.header.frame_id.lstrip('/'))
+            if self.whereabouts.take(sample, received) or appeared:
+                self._start_anew('own ship appeared' if appeared else 'own ship is elsewhere')
         except BadMessage as error:
             self.ledger.refuse('ownship', error.reason, error)
 

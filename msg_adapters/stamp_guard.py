@@ -33,6 +33,7 @@ class StampGuard:
 
     threshold: float
     jumps: int = 0  # times that the clock truly moved
+    silences: int = 0  # times that nothing came for longer than a stamp may be off
     _newest: float | None = None  # stamp accepted last
     _received: float = 0.0  # when, by a clock that never goes back
     _interval: float = 0.0  # between the last two accepted stamps
@@ -90,6 +91,7 @@ class StampGuard:
         step = stamp - self._newest
         late = received - self._received  # silence explains a gap
         if 0.0 < step <= max(late, 0.0) + self._reach:
+            self.silences += step > self._reach
             self._take(stamp, received)
             return False
         if -self.threshold <= step <= 0.0:

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from msg_adapters.frames import TrackingFrame
+from msg_adapters.leap_guard import LeapGuard
 from msg_adapters.node_config import NodeConfig
 from msg_adapters.stamp_guard import StampGuard
 from tracking_core.batches import Floats
@@ -48,6 +49,7 @@ class Whereabouts:
     def __init__(self, node_config: NodeConfig) -> None:
         self._config, self.transforms = node_config, None
         self._guard = StampGuard(node_config.time_jump_threshold)
+        self._leaps = LeapGuard(node_config.ownship_leap, node_config.ownship_timeout)
         self.reset()
 
     transforms: Transforms | None
@@ -55,13 +57,19 @@ class Whereabouts:
     def reset(self) -> None:
         """Forget the path."""
         self._guard.reset()
+        self._leaps.reset()
         self.platform = Platform.empty(self._config.ownship_timeout)
 
-    def take(self, sample: Platform, received: float) -> None:
-        """Add one odometry; raises BadMessage for an odd stamp."""
-        if self._guard.accept(float(sample.time[0]), received):
+    def take(self, sample: Platform, received: float) -> bool:
+        """Add one odometry; return whether own ship leapt. BadMessage if it cannot be true."""
+        has_jumped = self._guard.accept(float(sample.time[0]), received)
+        if has_jumped:
+            self._leaps.reset()
+        has_leapt = self._leaps.accept(sample)
+        if has_jumped or has_leapt:
             self.platform = Platform.empty(self._config.ownship_timeout)
         self.platform = self.platform.add(sample)
+        return has_leapt
 
     def of(self, plots: Any, frame: TrackingFrame) -> Platform:
         """

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import chain
 import math
 import time
@@ -26,8 +27,7 @@ class Health:
     latency: float = math.nan  # from arrival to tracks [s]
     plots_at: float = -math.inf  # when the last plots came, by the same clock [s]
     ownship_at: float = -math.inf
-    _complaints: int = 0
-    _shed: int = 0
+    _told: Counter[str] = field(default_factory=Counter)  # complaints up to the last report
     _begun: tuple[float, float] = (0.0, 0.0)
 
     def step_begins(self) -> None:
@@ -40,10 +40,9 @@ class Health:
         self.step_time, self.step_cpu = time.perf_counter() - begun, time.thread_time() - used
 
     def level(self, session: Session, now: float) -> tuple[str, str]:
-        """Return level and message: what is worst at the moment."""
-        warnings = chain(self._silences(session, now), self._warnings(session))
-        worst = next(warnings, None)
-        return ('WARN', worst) if worst else ('OK', 'tracking')
+        """Return level and message: all that is wrong at the moment, the worst first."""
+        wrong = '; '.join(chain(self._silences(session, now), self._warnings(session)))
+        return ('WARN', wrong) if wrong else ('OK', 'tracking')
 
     def _silences(self, session: Session, now: float) -> Iterator[str]:
         """Yield which inputs have stopped coming."""
@@ -59,21 +58,19 @@ class Health:
 
     def _warnings(self, session: Session) -> Iterator[str]:
         """Yield what is wrong with the inputs that come."""
-        topic = session.instrument.topic
-        if session.counts[topic].shed > self._shed:
+        topic, new = session.instrument.topic, _complaints(session) - self._told
+        if new.pop(f'{topic} shed', 0):
             yield f'too slow: only the newest {topic} are used'
+        if len(session.tracks) >= NEAR_CAPACITY * session.instrument.tracker.config.max_tracks:
+            yield 'close to max_tracks'
         crowded = [name for name, count in session.counts.items() if count.publishers > 1]
         if crowded:
             yield f'several publishers on {" and ".join(crowded)}'
-        if len(session.tracks) >= NEAR_CAPACITY * session.instrument.tracker.config.max_tracks:
-            yield 'close to max_tracks'
-        if _complaints(session) > self._complaints:
-            yield 'input refused, dropped or lost'
+        yield from sorted(new)
 
     def told(self, session: Session) -> None:
         """Take note that complaints up to now have been reported."""
-        self._complaints = _complaints(session)
-        self._shed = session.counts[session.instrument.topic].shed
+        self._told = _complaints(session)
 
     def values(self, session: Session, now: float) -> dict[str, object]:
         """Return every number by name; ages and times in s."""
@@ -95,14 +92,21 @@ class Health:
             f'{topic} age [s]': now - self.plots_at,
             'ownship age [s]': now - self.ownship_at,
             'clock jumps': session.guard.jumps,
+            f'{topic} silences': session.guard.silences,
             **session.counts[topic].values(topic),
             **session.counts['ownship'].values('ownship'),
             **session.counts['acquire'].values('acquire'),
         }
 
 
-def _complaints(session: Session) -> int:
-    return sum(
-        count.lost + count.refused.total() + count.dropped.total()
-        for count in session.counts.values()
-    )
+def _complaints(session: Session) -> Counter[str]:
+    """Return what was lost, shed, refused and dropped so far, by topic and reason."""
+    complaints = Counter({f'{session.instrument.topic} were silent': session.guard.silences})
+    for topic, count in session.counts.items():
+        complaints[f'{topic} lost'] += count.lost
+        complaints[f'{topic} shed'] += count.shed
+        for reason, number in count.refused.items():
+            complaints[f'{topic} refused: {reason}'] += number
+        for reason, number in count.dropped.items():
+            complaints[f'{topic} dropped: {reason}'] += number
+    return complaints

@@ -39,3 +39,21 @@ def test_level_says_for_how_long_own_ship_is_silent_where_it_is_needed(session):
     assert health.level(session, 100.0) == ('WARN', 'no ownship for 15 s')
     health.ownship_at = 93.0
     assert health.level(session, 100.0) == ('OK', 'tracking')
+
+
+def test_level_names_all_that_is_wrong_until_it_was_told(session):
+    """What was shed, who else publishes, what was refused and why: the worst first."""
+    health = Health(started=0.0, plots_at=99.0)
+    session.counts['plots'].received(1, 2)
+    session.counts['plots'].refused['stamp not newer'] += 1
+    session.counts['ownship'].refused['own ship leaps'] += 1
+    session.ledger.shed('plots')
+    told = (
+        'too slow: only the newest plots are used; several publishers on plots; '
+        'ownship refused: own ship leaps; plots refused: stamp not newer'
+    )
+    assert health.level(session, 100.0) == ('WARN', told)
+    health.told(session)
+    assert health.level(session, 100.0) == ('WARN', 'several publishers on plots')
+    session.counts['plots'].received(2, 1)
+    assert health.level(session, 100.0) == ('OK', 'tracking')

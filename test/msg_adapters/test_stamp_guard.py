@@ -53,6 +53,14 @@ def test_clock_that_moved_is_believed_once(jump):
     assert guard.jumps == 1
 
 
+def test_silence_that_explains_a_gap_is_counted():
+    """An hour without plots is no jump; the user sees that there was one silence."""
+    guard = StampGuard(10.0)
+    assert feed(guard, [100.0, 104.0]) == ['used', 'used']
+    assert feed(guard, [3700.0, 3704.0], received=3600.0) == ['used', 'used']
+    assert (guard.jumps, guard.silences) == (0, 1)
+
+
 def test_repeated_strange_stamp_does_not_agree_with_itself():
     """A publisher that is stuck cannot move the clock."""
     assert 'reset' not in feed(StampGuard(10.0), [100.0, *[5000.0] * 9])

@@ -1,0 +1,81 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Own ship that is suddenly elsewhere: once is refused, for good begins anew."""
+
+from dataclasses import replace
+import logging
+
+import numpy as np
+
+from msg_adapters.message_types import rosbags_types
+from msg_adapters.table import from_columns, to_columns
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.node_config import radar_node_config
+from radar_tracker.session import radar_session
+
+TYPES = rosbags_types()
+PERIOD, SPEED, LEAP = 4.0, 10.0, 1000.0  # s, m/s of own ship, m
+CONTACTS = np.array([[20e3, 10e3], [-30e3, 15e3], [5e3, -25e3]])
+
+
+def odometry(time, leap):
+    """Return what a ship says that sails to the east."""
+    zero, covariance = TYPES.Vector3(x=0.0, y=0.0, z=0.0), np.zeros(36)
+    pose = TYPES.Pose(
+        position=TYPES.Point(x=SPEED * time + leap, y=0.0, z=0.0),
+        orientation=TYPES.Quaternion(x=0.0, y=0.0, z=0.0, w=1.0),
+    )
+    twist = TYPES.Twist(linear=TYPES.Vector3(x=SPEED, y=0.0, z=0.0), angular=zero)
+    return TYPES.Odometry(
+        header=TYPES.header(time, 'odom'), child_frame_id='base_link',
+        pose=TYPES.PoseWithCovariance(pose=pose, covariance=covariance),
+        twist=TYPES.TwistWithCovariance(twist=twist, covariance=covariance),
+    )  # fmt: skip
+
+
+def sail(radar, numbers, leap=0.0):
+    """Feed odometry and plots of contacts at rest; return the confirmed tracks of each scan."""
+    tables = []
+    for number in numbers:
+        time = PERIOD * number
+        radar.ownship(odometry(time, leap), time)
+        seen = CONTACTS - [SPEED * time, 0.0]
+        noise = np.random.default_rng(number).normal(0.0, 1.0, (2, 3))
+        columns = {
+            'range': np.hypot(*seen.T) + 20.0 * noise[0],
+            'azimuth': np.arctan2(seen[:, 1], seen[:, 0]) + 1e-4 * noise[1],
+        }
+        table = to_columns(radar.plots(from_columns(columns, time, 'radar', TYPES), time), 100)
+        tables.append(table)
+    return [set(t['id'][t['status'] == 1].tolist()) for t in tables], tables[-1]
+
+
+def make(log='leaps'):
+    """Return a radar on a ship."""
+    config = replace(radar_node_config(), ownship_timeout=10.0)
+    return radar_session(RadarTrackerConfig(), config, TYPES, logging.getLogger(log))
+
+
+def test_one_leap_of_own_ship_moves_no_track():
+    """The place is refused and counted; ids and places stay."""
+    radar = make()
+    before = sail(radar, range(10))[0][-1]
+    sail(radar, [10], LEAP)
+    ids, table = sail(radar, range(11, 15))
+    assert len(before) == 3
+    assert all(now == before for now in ids)
+    assert radar.counts['ownship'].refused == {'own ship leaps': 1}
+    off = np.hypot(table['x'][:, None] - CONTACTS[:, 0], table['y'][:, None] - CONTACTS[:, 1])
+    assert off.min(axis=1).max() < 60.0  # 20 m and 2 to 3 m of noise, three sd
+
+
+def test_leap_for_good_begins_anew(caplog):
+    """Two places are refused, the third is believed, with one warning; then tracks come back."""
+    radar = make('leaps for good')
+    before = sail(radar, range(10))[0][-1]
+    with caplog.at_level(logging.WARNING):
+        ids, _ = sail(radar, range(10, 20), LEAP)
+    assert radar.counts['ownship'].refused == {'own ship leaps': 2}
+    assert len([r for r in caplog.records if 'own ship is elsewhere' in r.message]) == 1
+    assert len(ids[-1]) == 3
+    assert not ids[-1] & before
