@@ -58,7 +58,7 @@ setup(
             'nrl-tracker>=2.11; python_version >= "3.11"',
         ],
         'dask': ['dask[distributed]>=2024.1'],  # sweeps over more than one machine
-        'feeds': ['libasterix>=0.36'],  # decoder of ASTERIX radars
+        'feeds': ['libasterix>=0.36', 'pynmea2>=1.19', 'pyais>=2.6'],  # decoders
         # colcon runs the tests only when an extra of this name lists pytest.
         'test': [
             'pytest>=7.4',

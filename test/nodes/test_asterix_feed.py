@@ -11,8 +11,8 @@ import time
 import pytest
 
 from msg_adapters.table import to_columns
-from tracking_tools.asterix.clock import DAY
-from tracking_tools.asterix.feed import open_udp
+from tracking_tools.feeds.clock import DAY
+from tracking_tools.feeds.sources import open_udp
 
 generated = pytest.importorskip('asterix.generated')
 

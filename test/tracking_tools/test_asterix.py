@@ -14,9 +14,9 @@ from msg_adapters.message_types import rosbags_types
 from msg_adapters.table import to_columns
 from tracking_tools.asterix.__main__ import main
 from tracking_tools.asterix.blocks import MOST, read_reports
-from tracking_tools.asterix.clock import DAY, DayClock
-from tracking_tools.asterix.feed import Feed
 from tracking_tools.bags import open_bag
+from tracking_tools.feeds.clock import DAY, DayClock
+from tracking_tools.feeds.feed import Feed
 
 generated = pytest.importorskip('asterix.generated')
 PLOTS, SERVICE = generated.Cat_048_1_32, generated.Cat_034_1_29
@@ -114,14 +114,14 @@ def test_clock_goes_on_over_midnight_and_takes_late_reports():
 
 def test_feed_follows_one_radar_and_marks_are_looks_without_plots():
     """A sector in which nothing was seen is a message without rows; other radars are counted."""
-    feed = Feed(rosbags_types(), 'radar', 10.0 * DAY)
-    assert feed.message(mark(100.0))[0] == 10.0 * DAY + 100.0
+    feed = Feed(read_reports, rosbags_types(), 'radar', 10.0 * DAY)
+    assert feed.take(mark(100.0))[0] == 10.0 * DAY + 100.0
     other = plot(1.0, **{'010': (('SAC', 1), ('SIC', 1))})
-    assert feed.message(block(other)) is None
-    stamp, msg = feed.message(block(plot(101.0), plot(102.5)) + mark(100.5))
+    assert feed.take(block(other)) is None
+    stamp, msg = feed.take(block(plot(101.0), plot(102.5)) + mark(100.5))
     assert stamp == 10.0 * DAY + 100.5
     np.testing.assert_allclose(to_columns(msg, 9)['time'], [0.5, 2.0])
-    assert feed.counts == {'plots': 2, 'from radar 1/1': 1}
+    assert feed.counts == {'plots': 2, 'from another source': 1}
 
 
 def test_file_becomes_a_bag_that_a_replay_reads(tmp_path, capsys):
@@ -129,7 +129,7 @@ def test_file_becomes_a_bag_that_a_replay_reads(tmp_path, capsys):
     path, bag = tmp_path / 'night.ast', tmp_path / 'bag'
     path.write_bytes(b''.join(block(plot(t % DAY)) for t in (DAY - 4.0, DAY, DAY + 4.0)))
     assert main([str(path), '--bag', str(bag), '--date', '2026-03-01']) == 0
-    assert 'radar 25/201: plots 3' in capsys.readouterr().out
+    assert '25/201: plots 3' in capsys.readouterr().out
     with open_bag(bag) as recorded:
         stamps = [time_ns / 1e9 for _, time_ns, _ in recorded.messages()]
     midnight = datetime(2026, 3, 2, tzinfo=timezone.utc).timestamp()

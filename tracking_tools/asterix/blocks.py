@@ -14,30 +14,19 @@ from collections.abc import Iterator
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from tracking_tools.asterix.clock import DAY
+from tracking_tools.feeds.clock import DAY
+from tracking_tools.feeds.report import NAUTICAL_MILE, Report
 
-NAUTICAL_MILE = 1852.0  # m
 HEADER = 3  # bytes: category, length of the block with its header
 MOST = 2000  # records of a block; a block that has more is read so far
 PLOTS, SERVICE = 48, 34  # categories
 NO_DETECTION = 0  # in I048/020
 _MARKS = (1, 2)  # in I034/000: north, sector crossing
-
-
-class Report(NamedTuple):
-    """One record."""
-
-    source: tuple[int, int]  # SAC, SIC
-    time_of_day: float  # UTC [s]
-    range: float = np.nan  # slant range [m], NaN: not a plot but a mark of the antenna
-    azimuth: float = np.nan  # anticlockwise from east [rad]
-    doppler: float = np.nan  # as sent [m/s]
-    amplitude: float = np.nan  # [dBm]
-    track: int = 0  # number that the radar gives, 0: none
 
 
 def data_blocks(data: bytes, counts: Counter[str]) -> Iterator[tuple[int, bytes]]:
@@ -50,6 +39,12 @@ def data_blocks(data: bytes, counts: Counter[str]) -> Iterator[tuple[int, bytes]
             return
         yield data[at], data[at + HEADER : at + length]
         at += length
+
+
+def blocks_of_file(path: Path, counts: Counter[str]) -> Iterator[bytes]:
+    """Yield the data blocks of a file, one after another."""
+    for category, body in data_blocks(path.read_bytes(), counts):
+        yield bytes([category]) + (len(body) + HEADER).to_bytes(2, 'big') + body
 
 
 def read_reports(data: bytes, counts: Counter[str]) -> list[Report]:

@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""The plots of an ASTERIX radar, published as they come from UDP or from a file."""
+"""The plots of a feed, published as they come from UDP or from a file."""
 
 from __future__ import annotations
 
@@ -20,28 +20,31 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import try_shutdown
 from sensor_msgs.msg import PointCloud2
 
-from tracking_tools.asterix.feed import describe, Feed, LARGEST
+from tracking_tools.feeds.feed import describe, Feed
+from tracking_tools.feeds.sources import LARGEST
 
 REPORT = 10.0  # between two lines on what was left out [s]
 FAREWELL = 2.0  # for readers to confirm the last plots [s]
 ATTENTION = 0.05  # between two looks for a listener [s]
 
 
-class AsterixRadar(Node):
+class FeedNode(Node):
     """
-    One radar on the air.
+    One sender on the air.
 
     Publisher: ``plots`` (sensor_msgs/PointCloud2, reliable, keep last 10).
 
     Parameters
     ----------
+    name : str
+        Of the format.
     feed : Feed
         Makes the messages.
 
     """
 
-    def __init__(self, feed: Feed) -> None:
-        super().__init__('asterix_radar')
+    def __init__(self, name: str, feed: Feed) -> None:
+        super().__init__(f'{name}_feed')
         self.feed, self._told = feed, time.monotonic()
         self._plots = self.create_publisher(
             PointCloud2, 'plots', QoSProfile(depth=10),
@@ -66,13 +69,19 @@ class AsterixRadar(Node):
 
 
 def publish(
-    feed: Feed, chunks: Iterable[bytes] | socket.socket, ros_arguments: Sequence[str], rate: float
+    name: str,
+    feed: Feed,
+    chunks: Iterable[bytes] | socket.socket,
+    ros_arguments: Sequence[str],
+    rate: float,
 ) -> int:
     """
     Publish a socket's datagrams as they come, or chunks of a file at their times; return 0.
 
     Parameters
     ----------
+    name : str
+        Of the format.
     feed : Feed
         Makes the messages.
     chunks : socket, or iterable of bytes
@@ -87,7 +96,7 @@ def publish(
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
-    node = AsterixRadar(feed)
+    node = FeedNode(name, feed)
     try:
         if isinstance(chunks, socket.socket):
             _hear(node, chunks, stop.is_set)
@@ -102,19 +111,21 @@ def publish(
     return 0
 
 
-def _hear(node: AsterixRadar, hearing: socket.socket, is_over: Callable[[], bool]) -> None:
+def _hear(node: FeedNode, hearing: socket.socket, is_over: Callable[[], bool]) -> None:
     while not is_over():
         try:
             data = hearing.recv(LARGEST)
         except TimeoutError:
-            continue
-        node.feed.clock.set(time.time())
-        told = node.feed.message(data)
+            told = node.feed.flush()
+        else:
+            now = time.time()
+            node.feed.clock.set(now)
+            told = node.feed.take(data, now)
         if told is not None:
             node.tell(told[1])
 
 
-def _play(node: AsterixRadar, chunks: Iterable[bytes], rate: float, stop: Event) -> None:
+def _play(node: FeedNode, chunks: Iterable[bytes], rate: float, stop: Event) -> None:
     while not node.has_listener() and not stop.wait(ATTENTION):
         pass
     begun, first = time.monotonic(), None

@@ -1,0 +1,182 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Targets of a marine radar (NMEA) and ships with AIS become plots; odd sentences are counted."""
+
+from collections import Counter
+from datetime import datetime, timezone
+from functools import reduce
+from operator import xor
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+import numpy as np
+import pytest
+
+from msg_adapters.message_types import rosbags_types
+from msg_adapters.table import to_columns
+from tracking_tools.ais.__main__ import main as ais_main
+from tracking_tools.ais.sentences import read_positions
+from tracking_tools.bags import open_bag
+from tracking_tools.feeds.feed import Feed
+from tracking_tools.feeds.report import polar_of
+from tracking_tools.nmea.__main__ import main
+from tracking_tools.nmea.sentences import read_sentences
+
+pytest.importorskip('pynmea2')
+pyais = pytest.importorskip('pyais')
+ORIGIN = (54.5, 10.2)  # deg
+DEGREE = 111_412.0  # m along a meridian at 54.5 degrees, within 0.1 %
+
+
+def sentence(body):
+    """Return a sentence with its checksum."""
+    return f'${body}*{reduce(xor, body.encode()):02X}\r\n'.encode()
+
+
+def ttm(number=5, distance='10.0', bearing='90.0', reference='T', status='T', utc='120000.50'):
+    """Return a tracked target."""
+    rest = f'12.0,270.0,T,0.5,3.2,N,NAME,{status},,{utc},A'
+    return sentence(f'RATTM,{number:02d},{distance},{bearing},{reference},{rest}')
+
+
+def ais(**changes):
+    """Return a position report."""
+    values = {'type': 1, 'mmsi': 211_234_560, 'lat': 54.6, 'lon': 10.2, 'second': 30, **changes}
+    return pyais.encode_dict(values, talker_id='AI', sentence_type='VDM')[0].encode() + b'\r\n'
+
+
+@pytest.mark.parametrize(
+    ('latitude', 'longitude', 'distance', 'azimuth'),
+    [
+        (55.5, 10.2, DEGREE, 90.0),
+        (54.5, 11.2, DEGREE * np.cos(np.radians(54.5)), 0.0),
+        (54.4, 10.2, 0.1 * DEGREE, -90.0),
+    ],
+)
+def test_places_are_told_on_a_plane_about_the_origin(latitude, longitude, distance, azimuth):
+    """A degree north, a degree east, a tenth of one south."""
+    r, angle = polar_of(latitude, longitude, ORIGIN)
+    assert r == pytest.approx(distance, rel=3e-3)  # the ellipsoid is within 0.3 % of a sphere
+    assert np.degrees(angle) == pytest.approx(azimuth, abs=1e-9)
+
+
+def test_plane_goes_on_over_the_date_line():
+    """179.9 east and 179.9 west are near each other."""
+    assert polar_of(0.0, -179.9, (0.0, 179.9))[0] == pytest.approx(0.2 * 111_320.0, rel=1e-3)
+
+
+def test_ttm_is_a_plot_with_our_units_and_time():
+    """10 NM in the east, half a second after noon, number 5."""
+    (report,) = read_sentences(ttm(), Counter())
+    assert report.range == 18_520.0
+    assert report.azimuth == pytest.approx(0.0)
+    assert (report.source, report.time_of_day, report.track) == ('RA', 43_200.5, 5)
+
+
+def test_bearings_from_ahead_are_for_the_ships_frame_only():
+    """Starboard is negative; both kinds do not mix."""
+    counts = Counter()
+    told = ttm(bearing='30.0', reference='R')
+    assert not read_sentences(told, counts)
+    (report,) = read_sentences(told + ttm(), counts, relative=True)
+    assert report.azimuth == pytest.approx(np.radians(-30.0))
+    assert counts == {'bearing from ahead': 1, 'true bearing': 1}
+
+
+def test_tll_is_a_plot_where_the_origin_is_known():
+    """Latitude and longitude in degrees and minutes."""
+    told = sentence('RATLL,03,5436.000,N,01012.000,E,NAME,120001.00,T,')
+    counts = Counter()
+    assert not read_sentences(told, counts)
+    assert counts == {'TLL without --origin': 1}
+    (report,) = read_sentences(told, counts, ORIGIN)
+    assert report.range == pytest.approx(0.1 * DEGREE, rel=3e-3)
+    assert np.degrees(report.azimuth) == pytest.approx(90.0)
+
+
+def test_what_is_no_target_is_counted_by_reason():
+    """Lost targets, other sentences, wrong checksums, empty fields, binary."""
+    counts = Counter()
+    data = [
+        ttm(status='L'), ttm(distance=''), sentence('RARSD,,,,,,,,,,,,,'), ttm()[:-4] + b'00\r\n',
+        b'\xff\xfe\r\n', ttm(utc='999999.99'), b'$' + b'A' * 5000 + b'\r\n',
+    ]  # fmt: skip
+    assert len(read_sentences(b''.join(data), counts)) == 0
+    assert counts == {
+        'lost target': 1, 'without range or bearing': 1, 'another sentence': 1,
+        'damaged sentence': 2, 'not a sentence': 2,
+    }  # fmt: skip
+
+
+def test_ais_position_is_a_plot():
+    """North of the origin; the MMSI is the id, the second tells the time."""
+    (report,) = read_positions(ais(), Counter(), ORIGIN)
+    assert report.range == pytest.approx(0.1 * DEGREE, rel=3e-3)
+    assert np.degrees(report.azimuth) == pytest.approx(90.0, abs=0.01)
+    assert (report.track, report.second) == (211_234_560, 30.0)
+
+
+def test_ais_without_a_position_is_counted():
+    """Ships that do not know where they are, and other messages."""
+    counts = Counter()
+    other = pyais.encode_dict({'type': 4, 'mmsi': 1}, talker_id='AI', sentence_type='VDM')[
+        0
+    ].encode()
+    assert not read_positions(ais(lat=91.0, lon=181.0) + other, counts, ORIGIN)
+    assert counts == {'without a position': 1, 'another message': 1}
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.binary(max_size=100), st.text('!$*,0123456789ABTMVDLRAI.', max_size=90))
+def test_any_bytes_are_read_without_an_error(data, text):
+    """Noise, and noise with the letters and a valid checksum of a sentence."""
+    for chunk in (
+        data,
+        text.encode(),
+        sentence(f'RATTM,{text}'),
+        b'!AIVDM,1,1,,A,' + data + b',0*00',
+    ):
+        read_sentences(chunk, Counter(), ORIGIN)
+        read_positions(chunk, Counter(), ORIGIN)
+
+
+def test_sentences_within_an_interval_are_one_message():
+    """A radar sends its targets one by one; a second of the minute is the nearest one."""
+    feed = Feed(read_sentences, rosbags_types(), 'radar', 0.0, interval=2.0)
+    sent = [ttm(1, utc='000001.00'), ttm(2, utc='000002.00'), ttm(1, utc='000003.00')]
+    messages = [to_columns(msg, 9) for _, msg in feed.messages(sent)]
+    assert [msg['id'].tolist() for msg in messages] == [[1, 2], [1]]
+    np.testing.assert_allclose(messages[0]['time'], [0.0, 1.0])
+
+    def read(data, counts):
+        return read_positions(data, counts, ORIGIN)
+
+    feed = Feed(read, rosbags_types(), 'map', 0.0)
+    stamp, _ = feed.take(ais(second=58), 6_000.0 + 61.0)
+    assert stamp == 6_000.0 + 58.0
+    assert feed.take(ais(second=60)) is None  # neither a second nor a clock
+    assert feed.counts['without a time'] == 1
+
+
+def test_nmea_file_becomes_a_bag(tmp_path, capsys):
+    """Over midnight of the day that the user says."""
+    path, bag = tmp_path / 'watch.nmea', tmp_path / 'bag'
+    path.write_bytes(b''.join(ttm(utc=utc) for utc in ('235958.00', '000001.00', '000004.00')))
+    assert main([str(path), '--bag', str(bag), '--date', '2026-03-01']) == 0
+    assert 'RA: plots 3' in capsys.readouterr().out
+    midnight = datetime(2026, 3, 2, tzinfo=timezone.utc).timestamp()
+    with open_bag(bag) as recorded:
+        stamps = [time_ns / 1e9 for _, time_ns, _ in recorded.messages()]
+    np.testing.assert_allclose(np.array(stamps) - midnight, [-2.0, 1.0, 4.0], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'words'),
+    [(['log.txt'], 'only a live feed'), (['udp://127.0.0.1:0'], '--origin LAT LON')],
+)
+def test_ais_that_cannot_be_used_is_told(arguments, words, capsys, tmp_path, monkeypatch):
+    """No traceback."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'log.txt').write_text('')
+    assert ais_main(arguments) == 1
+    assert words in capsys.readouterr().err

@@ -1,0 +1,62 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which position reports are in AIS sentences (VDM).
+
+They tell the second of the minute at most: the rest of the time is when they came.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from tracking_tools.feeds.report import polar_of, Report
+from tracking_tools.feeds.sources import lines_of
+
+POSITIONS = (1, 2, 3, 18)  # message types
+NO_LATITUDE, NO_LONGITUDE, NO_SECOND = 91.0, 181.0, 60  # what is sent for 'not known'
+
+
+def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float]) -> list[Report]:
+    """
+    Return the ships in some sentences.
+
+    Parameters
+    ----------
+    data : bytes
+        Lines.
+    counts : Counter
+        By reason, what was left out.
+    origin : tuple of float
+        Latitude and longitude of the frame [deg].
+
+    """
+    ais, reports = import_module('pyais'), []
+    for line in lines_of(data, counts):
+        try:
+            message = ais.decode(line)
+        except (ais.exceptions.AISBaseException, ArithmeticError, LookupError, ValueError):
+            counts['damaged sentence, or a part of one'] += 1
+            continue
+        report, why = _to_report(message, origin)
+        if report is None:
+            counts[why] += 1
+        else:
+            reports.append(report)
+    return reports
+
+
+def _to_report(message: Any, origin: tuple[float, float]) -> tuple[Report | None, str]:
+    if message.msg_type not in POSITIONS:
+        return None, 'another message'
+    latitude, longitude = float(message.lat), float(message.lon)
+    if abs(latitude) >= NO_LATITUDE or abs(longitude) >= NO_LONGITUDE:
+        return None, 'without a position'
+    distance, azimuth = polar_of(latitude, longitude, origin)
+    second = float(message.second) if message.second < NO_SECOND else np.nan
+    report = Report('AIS', range=distance, azimuth=azimuth, track=int(message.mmsi), second=second)
+    return report, ''

@@ -1,0 +1,135 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How the reports of one sender become messages of plots."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from msg_adapters.message_types import MessageTypes
+from msg_adapters.table import from_columns
+from tracking_tools.feeds.clock import DayClock
+from tracking_tools.feeds.report import Report
+
+Read = Callable[[bytes, Counter[str]], Sequence[Report]]
+Told = tuple[float, Any]  # time [s] and message (PointCloud2)
+MINUTE = 60.0  # s
+
+
+class Feed:
+    """
+    Makes messages of plots from one sender's reports.
+
+    Parameters
+    ----------
+    read : callable
+        Returns the reports in a piece of data; counts by reason what it leaves out.
+    types : MessageTypes
+        Classes of the messages.
+    frame : str
+        Of the header: east, north, up at the sensor.
+    reference : float
+        Some time less than half a day from the first report [s since the epoch].
+    interval : float
+        Reports so near in time are one message [s]; 0: a piece of data is one message.
+    source : optional
+        Whose reports are used; without it those of the first.
+    with_doppler : bool
+        Whether the Doppler speed is told; its sign is not the same for all radars.
+
+    """
+
+    def __init__(
+        self,
+        read: Read,
+        types: MessageTypes,
+        frame: str,
+        reference: float,
+        interval: float = 0.0,
+        source: tuple[int, int] | str | None = None,
+        with_doppler: bool = False,
+    ) -> None:
+        self.counts: Counter[str] = Counter()
+        self.clock, self.source, self._read = DayClock(reference), source, read
+        self._types, self._frame, self._with_doppler = types, frame, with_doppler
+        self._interval = interval
+        self._waiting: list[tuple[float, Report]] = []  # with their times [s]
+
+    def take(self, data: bytes, now: float = np.nan) -> Told | None:
+        """
+        Return the next message, if this piece of data ends one; `now` [s] is when it came.
+
+        Reports without a time of their own have that one, and are left out without it.
+        """
+        timed = [(self._time(report, now), report) for report in self._read(data, self.counts)]
+        ours = [(time, report) for time, report in timed if self._is_ours(time, report)]
+        if not self._interval:
+            self._waiting += ours
+            return self.flush()
+        if not ours or not self._waiting:
+            self._waiting += ours
+            return None
+        is_over = max(time for time, _ in ours) - self._waiting[0][0] >= self._interval
+        told = self.flush() if is_over else None
+        self._waiting += ours
+        return told
+
+    def flush(self) -> Told | None:
+        """Return what waits for its interval to end as a message, None if nothing waits."""
+        if not self._waiting:
+            return None
+        stamp = min(time for time, _ in self._waiting)
+        plots = [(time, r) for time, r in self._waiting if np.isfinite(r.range)]
+        self._waiting = []
+        self.counts['plots'] += len(plots)
+        return stamp, from_columns(self._columns(plots, stamp), stamp, self._frame, self._types)
+
+    def messages(self, chunks: Iterable[bytes]) -> Iterator[Told]:
+        """Yield time [s] and message of everything that has reports."""
+        for chunk in chunks:
+            told = self.take(chunk)
+            if told is not None:
+                yield told
+        last = self.flush()
+        if last is not None:
+            yield last
+
+    def _time(self, report: Report, now: float) -> float:
+        if np.isfinite(report.time_of_day):
+            return self.clock.time(report.time_of_day)
+        if np.isfinite(report.second):
+            return now - (now - report.second + 0.5 * MINUTE) % MINUTE + 0.5 * MINUTE
+        return now
+
+    def _is_ours(self, time: float, report: Report) -> bool:
+        self.source = report.source if self.source is None else self.source
+        if report.source != self.source:
+            self.counts['from another source'] += 1
+        elif not np.isfinite(time):
+            self.counts['without a time'] += 1
+        return report.source == self.source and bool(np.isfinite(time))
+
+    def _columns(self, plots: Sequence[tuple[float, Report]], stamp: float) -> dict[str, Any]:
+        def column(name: str) -> Any:
+            return np.array([getattr(report, name) for _, report in plots], np.float32)
+
+        amplitude, doppler = column('amplitude'), column('doppler')
+        return {
+            'range': column('range'),
+            'azimuth': column('azimuth'),
+            'time': np.array([time - stamp for time, _ in plots], np.float32),
+            **({'amplitude': amplitude} if np.isfinite(amplitude).any() else {}),
+            **({'range_rate': doppler} if self._with_doppler else {}),
+            'id': np.array([report.track for _, report in plots], np.uint32),
+        }
+
+
+def describe(feed: Feed) -> str:
+    """Return what became of the reports, in words."""
+    source = '/'.join(map(str, feed.source)) if isinstance(feed.source, tuple) else feed.source
+    counts = ', '.join(f'{name} {count}' for name, count in sorted(feed.counts.items()))
+    return f'{source or "nobody"}: {counts or "nothing"}'

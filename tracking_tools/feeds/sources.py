@@ -1,0 +1,54 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where the bytes of a feed come from: UDP, or the lines of a file."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+import socket
+from urllib.parse import urlsplit
+
+LARGEST = 65_535  # bytes of a datagram
+LONGEST = 1024  # bytes of a line
+PATIENCE = 0.2  # between two looks at whether to go on [s]
+
+
+def open_udp(address: str) -> socket.socket:
+    """
+    Return a socket that hears 'udp://HOST:PORT'; a multicast group is joined.
+
+    Raises
+    ------
+    ValueError
+        For another form of address.
+
+    """
+    parts = urlsplit(address)
+    if parts.scheme != 'udp' or not parts.hostname or parts.port is None:
+        raise ValueError(f'address must be udp://HOST:PORT, got {address}')
+    hearing = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    hearing.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    hearing.bind((parts.hostname, parts.port))
+    group = socket.inet_aton(socket.gethostbyname(parts.hostname))
+    if 224 <= group[0] < 240:
+        request = group + socket.inet_aton('0.0.0.0')
+        hearing.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, request)
+    hearing.settimeout(PATIENCE)
+    return hearing
+
+
+def lines_of_file(path: Path, counts: Counter[str]) -> Iterator[bytes]:
+    """Yield the lines of a file, one after another."""
+    with path.open('rb') as file:
+        yield from file
+
+
+def lines_of(data: bytes, counts: Counter[str]) -> Iterator[str]:
+    """Yield the lines in a piece of text that can be sentences; count those that cannot."""
+    for line in data.splitlines():
+        if len(line) > LONGEST or not line.isascii():
+            counts['not a sentence'] += 1
+        elif line.strip():
+            yield line.decode('ascii').strip()
