@@ -10,11 +10,11 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParametersAtomically
 
 from tracking_core.config import parameters
+from tracking_tools.parameter_file import read_parameter_file
 from tracking_tools.sensors import SENSORS
 from tracking_tools.testing import NodeProcess, Peer, python_node
 
 ROOT = Path(__file__).parents[2]
-SONAR_PRESETS = {'sonar', 'passive_linear_array', 'direction_finder'}
 PRESETS = sorted((ROOT / 'config').glob('*.yaml'))
 GROUPS = [PRESETS[start : start + 4] for start in range(0, len(PRESETS), 4)]
 WANTED = {
@@ -49,6 +49,15 @@ def get(probe, *names):
     return [value.double_value for value in answer.values]
 
 
+def node_of(path):
+    """Return the node whose parameters a preset has."""
+    given = set(read_parameter_file(path, '/any'))
+    for sensor in SENSORS.values():
+        if given <= {entry.name for config in sensor.configs for entry in parameters(config)}:
+            return sensor.node
+    raise AssertionError(f'{path} is for no node')
+
+
 @pytest.mark.parametrize('presets', GROUPS, ids=lambda group: '-'.join(p.stem for p in group))
 def test_presets_load_in_a_node(presets, ros_domain_id, tmp_path):
     """Every shipped file makes a node active, all its values are used, and nothing is odd."""
@@ -56,10 +65,8 @@ def test_presets_load_in_a_node(presets, ros_domain_id, tmp_path):
         peer = running.enter_context(Peer(ros_domain_id))
         nodes = {}
         for path in presets:
-            package = 'sonar_tracker' if path.stem in SONAR_PRESETS else 'radar_tracker'
-            command = python_node(
-                f'{package}.node', '--params-file', str(path), '-r', f'__node:={path.stem}'
-            )
+            module = f'{node_of(path)}.node'
+            command = python_node(module, '--params-file', str(path), '-r', f'__node:={path.stem}')
             node = NodeProcess(command, ros_domain_id, tmp_path / path.stem, folder=ROOT)
             nodes[path.stem] = running.enter_context(node)
         for name, node in nodes.items():

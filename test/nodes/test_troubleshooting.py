@@ -35,6 +35,7 @@ def test_lines_of_the_page_are_those_that_nodes_print(start_node, ros_domain_id,
     ]
     for node in nodes[:2]:
         node.wait_for_line('nothing has come')
+    assert [node.wait() for node in nodes[2:]] == [1, 1]
     with TrackerProbe(ros_domain_id, sensor) as probe:
         probe.peer.wait_until_matched(probe.plots)
 

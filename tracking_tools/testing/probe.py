@@ -16,7 +16,7 @@ from msg_adapters.message_types import rclpy_types, seconds
 from msg_adapters.table import Columns, from_columns, to_columns
 from msg_adapters.track_rows import CONFIRMED
 from tracking_tools.node_process import DEADLINE
-from tracking_tools.peer import Peer
+from tracking_tools.peer import AGAIN, Peer
 from tracking_tools.testing.synthetic import RADAR, START, SyntheticSensor
 
 MAX_ROWS = 100_000  # of a track table
@@ -104,6 +104,8 @@ class TrackerProbe:
             greet, lambda: len(self.tables) > heard, 'an answer to an empty scan', GREETING,
             deadline,
         )  # fmt: skip
+        # Where the answer was slow, there are more to come.
+        self.peer.spin(lambda: self.is_answered(self.stamp), AGAIN)
 
     def reset(self) -> None:
         """Let the tracker forget all tracks and stamps."""
