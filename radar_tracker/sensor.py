@@ -11,6 +11,7 @@ import numpy as np
 from radar_tracker.config import SensorConfig
 from radar_tracker.conversion import linearised, to_cartesian, to_polar
 from radar_tracker.mounting import platform_noise, PlatformDoubt, sensor_pose
+from radar_tracker.told import excess, NOTHING, tell_noise
 from tracking_core.batches import Coverage, Floats, Plots, Scan
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
@@ -136,10 +137,12 @@ class Radar:
         unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
         if d == 3:
             position[unknown, 2] = np.nan
+        position, covariance = position[:, :d], covariance[:, :d, :d]
+        told = tell_noise(plots)
         return Scan(
             time=plots.time,
-            position=position[:, :d],
-            covariance=covariance[:, :d, :d],
+            position=position,
+            covariance=covariance,
             range_rate=plots.range_rate,
             range_rate_variance=_or(plots.range_rate_sd, self.config.range_rate_sd) ** 2,
             snr=plots.snr,
@@ -148,6 +151,7 @@ class Radar:
             sensor_velocity=pose.velocity,
             coverage=coverage,
             volume=volume,
+            excess=excess(covariance, self.noise(position, coverage)) if told else NOTHING,
         )
 
     def _local(self, plots: Plots) -> tuple[Floats, Floats]:

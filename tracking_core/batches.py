@@ -144,6 +144,7 @@ class Scan:
     sensor_velocity: Floats  # (M, 3) [m/s]
     coverage: Coverage
     volume: float  # plot space of the whole coverage, what the clutter density is per
+    excess: tuple[float, float, float] = (0.0, 0.0, 0.0)  # by axis, of variances over the usual
 
     def __len__(self) -> int:
         return len(self.time)

@@ -53,6 +53,8 @@ def candidates(
     leader = groups.member[sets.start]
     lag_max = longest_lag(passed, scan)[leader]
     noise = setup.sensor.noise(places.mean, scan.coverage)
+    d = noise.shape[1]
+    noise = noise + np.diag(np.array(scan.excess)[:d])
     own = np.sqrt(bound * np.einsum('tdd->td', places.covariance + noise))[groups.member]
     blur = sets.covariance + resolution.spread * sets.spread + noise[leader]
     half = np.sqrt(bound * np.einsum('bdd->bd', blur))

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.special import gammaincinv
 
 from tracking_core import measurement
-from tracking_core.batches import Coverage, Floats, Innovations, Ints, Mixture, Pairs, Scan
+from tracking_core.batches import Floats, Innovations, Ints, Mixture, Pairs, Scan
 from tracking_core.composition import Plane
 from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.kalman import mixture_log_likelihood
@@ -60,11 +60,13 @@ def open_gates(
     planes: tuple[Plane, ...],
     mixtures: tuple[Mixture, ...],
     sensor: Sensor,
-    coverage: Coverage,
+    scan: Scan,
     threshold: float,
 ) -> Gates:
     """
     Return the gate of every track, from the predicted modes and the noise expected there.
+
+    The box holds the gates of the least sure plots, which may tell more noise than expected.
 
     References
     ----------
@@ -80,7 +82,7 @@ def open_gates(
         place, rate = axes_of(at)
         mean[:, at], velocity[:, at] = m[:, place], m[:, rate]
         variance[:, at], velocity_variance[:, at] = diagonal[:, place], diagonal[:, rate]
-    R = sensor.noise(mean, coverage)
+    R, excess = sensor.noise(mean, scan.coverage), np.array(scan.excess)
     low, high = np.empty((T, d)), np.empty((T, d))
     volume = np.full(T, _UNIT_BALL[d] * threshold ** (0.5 * d))
     for plane, mixture, (_, P) in zip(planes, mixtures, moments, strict=True):
@@ -88,7 +90,8 @@ def open_gates(
         noise = R[:, at][:, :, at]
         place, _ = axes_of(at)
         spread = mixture.covariance.diagonal(0, 2, 3)[..., place]
-        variance_here = np.maximum(spread + noise.diagonal(0, 1, 2)[:, None], 0.0)
+        variance_here = spread + noise.diagonal(0, 1, 2)[:, None] + excess[at]
+        variance_here = np.maximum(variance_here, 0.0)
         half = _BOX_MARGIN * np.sqrt(threshold * variance_here)
         low[:, at] = over_modes(np.minimum, mixture.mean[..., place] - half)
         high[:, at] = over_modes(np.maximum, mixture.mean[..., place] + half)

@@ -45,7 +45,7 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
     )
     d = setup.sensor.dimensions
     threshold = thresholds(setup.gate_probability, d)[d]
-    gates = open_gates(setup.planes, planes, setup.sensor, scan.coverage, threshold)
+    gates = open_gates(setup.planes, planes, setup.sensor, scan, threshold)
     widest = gates.half_size[:, :2].max(axis=1, initial=0.0)
     inside = inside_coverage(gates.centre, scan.coverage)
     return Predicted(

@@ -1,0 +1,36 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How much less sure are plots that tell their own noise than the parameters say?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tracking_core.batches import Floats, Plots
+
+NOTHING = (0.0, 0.0, 0.0)
+MOST = 100.0  # times the expected variance; a plot that tells more opens no gate for others
+
+
+def tell_noise(plots: Plots) -> bool:
+    """Return whether any plot tells its own noise."""
+    told = (plots.range_sd, plots.azimuth_sd, plots.elevation_sd, plots.position_covariance)
+    return any(np.isfinite(values).any() for values in told)
+
+
+def excess(covariance: Floats, expected: Floats) -> tuple[float, float, float]:
+    """
+    Return by how much variances exceed those expected at most, on each axis [m^2].
+
+    Parameters
+    ----------
+    covariance, expected : (M, d, d) arrays
+        Of plots, as they tell it and as the sensor's parameters have it [m^2].
+
+    """
+    usual = np.einsum('mdd->md', expected)
+    more = np.minimum(np.einsum('mdd->md', covariance), MOST * usual) - usual
+    most = np.zeros(3)
+    most[: more.shape[1]] = np.fmax.reduce(more, axis=0, initial=0.0)
+    x, y, z = most.tolist()
+    return x, y, z
