@@ -53,6 +53,9 @@ def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float
 def _to_report(message: Any, origin: tuple[float, float]) -> tuple[Report | None, str]:
     if message.msg_type not in POSITIONS:
         return None, 'another message'
+    told = message.lat, message.lon, message.second, message.mmsi
+    if None in told:  # a message that ends too early
+        return None, 'damaged sentence, or a part of one'
     latitude, longitude = float(message.lat), float(message.lon)
     if abs(latitude) >= NO_LATITUDE or abs(longitude) >= NO_LONGITUDE:
         return None, 'without a position'
