@@ -6,6 +6,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 # Passed on to pytest or to the demo: make test ARGS='-k gating'
 ARGS ?=
@@ -22,7 +23,7 @@ help: ## say what can be made
 setup: $(READY) ## make the environment .venv if it is missing or out of date
 
 peers: $(READY) ## install what our tracks and figures are compared with
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[peers]'
+	$(PIP) --editable '.[peers]'
 
 demo: $(READY) ## play a recorded scene through the live radar node and draw what came out
 	$(BIN)/python -m tracking_tools.demo $(ARGS)
@@ -54,7 +55,8 @@ $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "Python 3.10 or newer is needed")'
 	$(PYTHON) -m venv --clear $(VENV) || { rm -rf $(VENV); exit 1; }
 
-$(READY): $(BIN)/python setup.py pyproject.toml
+$(READY): $(BIN)/python setup.py pyproject.toml constraints.txt
 	@echo 'Installing into $(VENV); this takes a few minutes the first time.'
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[ros,tools,feeds,report,test]'
+	$(PIP) --constraint constraints.txt --editable '.[ros,tools,feeds,report,test]' \
+		|| { echo 'The tested versions are not to be had here: taking others.'; $(PIP) --editable '.[ros,tools,feeds,report,test]'; }
 	@touch $@

@@ -37,6 +37,7 @@ setup(
         (SHARE, ['package.xml']),
         (f'{SHARE}/launch', sorted(glob('launch/*.launch.py'))),
         (f'{SHARE}/config', sorted(glob('config/*.yaml'))),
+        (f'{SHARE}/policies', sorted(glob('policies/*.xml'))),
         (f'{SHARE}/rviz', sorted(glob('rviz/*.rviz'))),
         (f'{SHARE}/foxglove', sorted(glob('foxglove/*.json'))),
     ],

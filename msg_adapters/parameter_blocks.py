@@ -49,7 +49,7 @@ def read_blocks(path: Path | str) -> list[Block]:
 
     """
     try:
-        document = yaml.load(_text_of(Path(path)), Loader)
+        document = yaml.load(_text_of(Path(path)), Loader)  # noqa: S506 (a SafeLoader)
     except (OSError, UnicodeDecodeError) as error:
         raise BadParameterFile(f'{path} cannot be read: {error}') from error
     except (yaml.YAMLError, ValueError, RecursionError) as error:  # 2001-99-99 is a ValueError

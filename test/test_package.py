@@ -22,7 +22,7 @@ HEADER = ['# Copyright 2026 the contact_tracking authors', '# SPDX-License-Ident
 LONG_FILES = {'tracking_core/batches.py': 'the glossary: every batch in one place'}
 NOT_IN_ROSDEP = {'setuptools', 'rosbags'}  # part of Python there; has a pip key only
 IMPORT_NAMES = {'pyyaml': 'yaml'}
-SHARED = {'launch', 'config', 'rviz', 'foxglove'}
+SHARED = {'launch', 'config', 'policies', 'rviz', 'foxglove'}
 LAUNCH = {'launch', 'launch_ros'}  # no wheels: present on a ROS machine only
 
 # Looked up in rosdep/python.yaml (for Ubuntu) and jazzy/distribution.yaml of ros/rosdistro.

@@ -102,7 +102,7 @@ class NodeProcess:
 
     def __enter__(self) -> NodeProcess:
         with self.log_file.open('wb') as out:
-            self.process = subprocess.Popen(
+            self.process = subprocess.Popen(  # noqa: S603 (a list, no shell; its caller's words)
                 self._command,
                 cwd=self._folder,
                 stdin=subprocess.DEVNULL,

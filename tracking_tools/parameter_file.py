@@ -47,7 +47,7 @@ def read_parameter_file(path: Path | str, node: str) -> dict[str, Any]:
 def parse_value(text: str) -> Any:
     """Return the value that a text means in a parameter file; raises BadParameterFile."""
     try:
-        return yaml.load(text, Loader)
+        return yaml.load(text, Loader)  # noqa: S506 (a SafeLoader)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise BadParameterFile(f'{text!r} is not a value: {error}') from error
 

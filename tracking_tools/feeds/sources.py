@@ -33,7 +33,7 @@ def open_udp(address: str) -> socket.socket:
     hearing.bind((parts.hostname, parts.port))
     group = socket.inet_aton(socket.gethostbyname(parts.hostname))
     if 224 <= group[0] < 240:
-        request = group + socket.inet_aton('0.0.0.0')
+        request = group + socket.inet_aton('0.0.0.0')  # noqa: S104 (any interface joins the group)
         hearing.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, request)
     hearing.settimeout(PATIENCE)
     return hearing

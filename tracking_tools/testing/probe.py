@@ -109,7 +109,8 @@ class TrackerProbe:
 
     def reset(self) -> None:
         """Let the tracker forget all tracks and stamps."""
-        assert self.call(Trigger, f'{self.sensor.node}/reset', Trigger.Request()).success
+        if not self.call(Trigger, f'{self.sensor.node}/reset', Trigger.Request()).success:
+            raise AssertionError('the tracker does not forget')
 
     def send(self, columns: Mapping[str, Any], stamp: float, frame: str = '') -> Any:
         """Publish plots; return the message."""
