@@ -105,7 +105,7 @@ def test_page_has_every_key_of_the_diagnostics():
     one, _ = session()
     one.plots(message(), 1.0)
     keys = {
-        re.sub(r'^(plots|ownship|acquire) (?!age|used|held)', 'TOPIC ', key)
+        re.sub(r'^(plots|ownship|acquire) (?!age|used|held|silences)', 'TOPIC ', key)
         for key in Health(0.0).values(one, 1.0)
     }
     text = section('radar_node.md', 'Diagnostics')
