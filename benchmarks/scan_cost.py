@@ -5,7 +5,7 @@ What does a scan cost? CPU milliseconds by number of tracks, step by step, and h
 
 Run ``python -m benchmarks.scan_cost [--sizes N ...]``. A scan is one antenna turn from the message
 to the message: read the plots, track, write the tracks. Median over the scans after warming up.
-Machines differ: judge by the ratios at the end.
+Machines differ: judge by the ratios at the end of each table. A sonar cycle comes last.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from unittest.mock import patch
 
 import numpy as np
 
+from benchmarks import sonar_cost
 from benchmarks.dense_traffic import messages, Traffic
 from benchmarks.stopwatches import stopwatches
 from msg_adapters.message_types import rosbags_types
@@ -166,13 +167,16 @@ def study(dimensions: int, sizes: Sequence[int], middle: int) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Print both studies."""
+    """Print both studies, and what a sonar cycle costs."""
     parser = argparse.ArgumentParser(description='CPU per scan by number of tracks.')
     parser.add_argument('--sizes', type=int, nargs='*', default=SIZES)
     parser.add_argument('--middle', type=int, default=1000, help='tracks for the comparisons')
     given = parser.parse_args(arguments)
     for dimensions in (3, 2):
         study(dimensions, given.sizes, given.middle)
+    print()
+    for line in sonar_cost.lines():
+        print(line)
 
 
 if __name__ == '__main__':

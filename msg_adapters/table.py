@@ -10,6 +10,7 @@ memory is touched. Read ``plots.py`` and ``tracks.py`` next.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -65,7 +66,7 @@ def from_columns_under(
         header=header,
         height=1,
         width=len(rows),
-        fields=_fields(dtype, types),
+        fields=[types.PointField(**place) for place in _places(dtype)],
         is_bigendian=False,
         point_step=dtype.itemsize,
         row_step=dtype.itemsize * len(rows),
@@ -82,17 +83,19 @@ def _row_type(columns: Mapping[str, NDArray[Any]]) -> np.dtype[Any]:
     return np.dtype([(name, '<' + v.dtype.str[1:], v.shape[1:]) for name, v in columns.items()])
 
 
-def _fields(dtype: np.dtype[Any], types: MessageTypes) -> list[Any]:
-    places: Mapping[str, Any] = dtype.fields or {}
-    return [
-        types.PointField(
-            name=name,
-            offset=offset,
-            datatype=_CODES[kind.base.str[1:]],
-            count=int(np.prod(kind.shape)),
-        )
-        for name, (kind, offset, *_) in places.items()
-    ]
+@lru_cache(maxsize=64)
+def _places(dtype: np.dtype[Any]) -> tuple[dict[str, Any], ...]:
+    """Return what a PointField says of each column: the same from message to message."""
+    fields: Mapping[str, Any] = dtype.fields or {}
+    return tuple(
+        {
+            'name': name,
+            'offset': offset,
+            'datatype': _CODES[kind.base.str[1:]],
+            'count': int(np.prod(kind.shape)),
+        }
+        for name, (kind, offset, *_) in fields.items()
+    )
 
 
 def to_columns(msg: Any, max_rows: int) -> Columns:

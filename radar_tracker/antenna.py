@@ -100,8 +100,8 @@ class Antenna:
 
     def _phase_at(self, time: float) -> float:
         """Return where the antenna pointed at this time [rad]."""
-        beam = np.exp(1j * (self._azimuth - self._rate * (self._time - time)))
-        return float(np.angle(beam.sum())) if len(beam) else 0.0
+        beam = self._azimuth - self._rate * (self._time - time)
+        return float(np.arctan2(np.sin(beam).sum(), np.cos(beam).sum()))
 
     def _learn(self, time: Floats, azimuth: Floats) -> None:
         """Follow the rate, or find it."""
@@ -109,9 +109,11 @@ class Antenna:
             self._stares |= bool(np.abs(np.exp(1j * azimuth).mean()) < _IN_STEP)
         if self._stares:
             return
-        evenly = np.linspace(0, len(time) - 1, min(len(time), _SAMPLES // 2)).astype(np.int64)
-        self._time = np.concatenate([self._time, time[evenly]])[-_SAMPLES:]
-        self._azimuth = np.concatenate([self._azimuth, azimuth[evenly]])[-_SAMPLES:]
+        if len(time) > _SAMPLES // 2:
+            evenly = np.linspace(0, len(time) - 1, _SAMPLES // 2).astype(np.int64)
+            time, azimuth = time[evenly], azimuth[evenly]
+        self._time = np.concatenate([self._time, time])[-_SAMPLES:]
+        self._azimuth = np.concatenate([self._azimuth, azimuth])[-_SAMPLES:]
         span = np.ptp(self._time) if len(self._time) else 0.0
         if len(self._time) < _FEWEST or span <= 0.0:
             return
@@ -155,7 +157,7 @@ class Antenna:
         square = float(t @ t)
         for _ in range(3):
             beam = self._azimuth - self._rate * t
-            off = wrap_angle(beam - np.angle(np.exp(1j * beam).sum()))
+            off = wrap_angle(beam - np.arctan2(np.sin(beam).sum(), np.cos(beam).sum()))
             self._rate += float(t @ off) / square
         if self._in_step(np.array([self._rate]))[0] < _IN_STEP:
             self._rate = 0.0

@@ -69,14 +69,13 @@ def linearised(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
     """Return position (M, d) and J diag(sd^2) J^T (M, d, d) of plots as in `to_cartesian`."""
     r, azimuth, elevation = _columns(polar)
     cb, sb, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
-    position = np.stack([r * ce * cb, r * ce * sb, r * se], axis=1)
-    J = np.empty((len(r), 3, 3))
-    J[:, 0] = np.stack([ce * cb, -r * ce * sb, -r * se * cb], axis=1)
-    J[:, 1] = np.stack([ce * sb, r * ce * cb, -r * se * sb], axis=1)
-    J[:, 2] = np.stack([se, np.zeros_like(r), r * ce], axis=1)
+    J = np.empty((len(r), 3, 3), order='F')
+    J[:, 0, 0], J[:, 1, 0], J[:, 2, 0] = ce * cb, ce * sb, se  # d position / d range
+    J[:, 0, 1], J[:, 1, 1], J[:, 2, 1] = -r * ce * sb, r * ce * cb, 0.0  # d azimuth
+    J[:, 0, 2], J[:, 1, 2], J[:, 2, 2] = -r * se * cb, -r * se * sb, r * ce  # d elevation
     d = polar.shape[1]
     scaled = J[:, :d, :d] * sd[:, None, :]
-    return position[:, :d].copy(), scaled @ np.swapaxes(scaled, 1, 2)
+    return r[:, None] * J[:, :d, 0], np.einsum('mik,mjk->mij', scaled, scaled, order='F')
 
 
 def unbiased(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:

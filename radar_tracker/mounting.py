@@ -14,11 +14,18 @@ from tracking_core.batches import Coverage, Floats
 from tracking_core.platform import PlatformPose
 
 
-def sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats, Floats]:
-    """Return rotation (M, 3, 3) from sensor to tracking axes and the sensor's position (M, 3)."""
+def sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats | None, Floats]:
+    """
+    Return rotation (M, 3, 3) from sensor to tracking axes and the sensor's position (M, 3).
+
+    The rotation is None where the axes are the same, as without own ship.
+    """
+    place = np.array([mount.x, mount.y, mount.z])
+    if mount.yaw == 0.0 and not pose.orientation[:, :3].any():
+        return None, pose.position + place
     platform, c, s = pose.rotation, np.cos(mount.yaw), np.sin(mount.yaw)
     turn = platform @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return turn, pose.position + platform @ np.array([mount.x, mount.y, mount.z])
+    return turn, pose.position + platform @ place
 
 
 def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Coverage:

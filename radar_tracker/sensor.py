@@ -131,9 +131,12 @@ class Radar:
         d = self.dimensions
         local, covariance = self._local(plots)
         turn, origin = sensor_pose(pose, self.config.mount)
-        position = (turn @ local[..., None])[..., 0] + origin
-        covariance = turn @ covariance @ np.swapaxes(turn, 1, 2)
-        covariance = covariance + platform_noise(pose, position - origin)
+        offset = local
+        if turn is not None:
+            offset = np.einsum('mij,mj->mi', turn, local, order='F')
+            covariance = turn @ covariance @ np.swapaxes(turn, 1, 2)
+        position = offset + origin
+        covariance = covariance + platform_noise(pose, offset)
         unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
         if d == 3:
             position[unknown, 2] = np.nan
@@ -169,7 +172,7 @@ class Radar:
             ],
             axis=1,
         )
-        position, covariance = np.zeros((M, 3)), np.zeros((M, 3, 3))
+        position, covariance = np.zeros((M, 3), order='F'), np.zeros((M, 3, 3), order='F')
         covariance[:, 2, 2] = 1.0
         position[:, :d], covariance[:, :d, :d] = to_cartesian(polar[:, :d], sd[:, :d])
         return position, covariance

@@ -22,7 +22,12 @@ class Plane:
     """Coordinates of the plots that one estimator follows, apart from the other planes."""
 
     estimator: Estimator
-    coordinates: tuple[int, ...]
+    coordinates: tuple[int, ...]  # consecutive
+
+    @cached_property
+    def part(self) -> slice:
+        """Where the coordinates stand in a plot."""
+        return slice(self.coordinates[0], self.coordinates[-1] + 1)
 
     def start(self, mean: Floats, covariance: Floats, sensor: Floats) -> Mixture:
         """Return new tracks; `sensor` (T, 4) is its x, y, vx, vy at their time [m, m/s]."""

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
+from scipy.sparse.csgraph import minimum_spanning_tree
 
+from tracking_core.association.clusters import clusters
 from tracking_core.association.partitions import Partitions
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.rows import take
@@ -83,24 +84,31 @@ def _neighbours(links: Links, tracks: int) -> tuple[Links, Ints]:
 
     Returns the links and the component of each track.
     """
-    ends = (links.first.astype(np.int32), links.second.astype(np.int32))  # all scipy 1.11 takes
-    cost = csr_array((1.0 - np.log(links.chance), ends), shape=(tracks, tracks))
-    tree = minimum_spanning_tree(cost).tocoo()
-    links = Links(tree.row.astype(np.int64), tree.col.astype(np.int64), np.exp(1.0 - tree.data))
+    label = _components(links, tracks)
+    if len(links.first) > tracks - 1 - label.max(initial=-1):  # there are loops
+        links = _spanning_tree(links, tracks)
     while True:
-        label = _components(links, tracks)
         large = (np.bincount(label) > LARGEST)[label[links.first]]
         if not large.any():
             return links, label
         least = np.full(label.max() + 1, np.inf)
         np.minimum.at(least, label[links.first], links.chance)
         links = take(links, ~large | (links.chance > least[label[links.first]]))
+        label = _components(links, tracks)
+
+
+def _spanning_tree(links: Links, tracks: int) -> Links:
+    ends = (links.first.astype(np.int32), links.second.astype(np.int32))  # all scipy 1.11 takes
+    cost = csr_array((1.0 - np.log(links.chance), ends), shape=(tracks, tracks))
+    tree = minimum_spanning_tree(cost).tocoo()
+    return Links(tree.row.astype(np.int64), tree.col.astype(np.int64), np.exp(1.0 - tree.data))
 
 
 def _components(links: Links, tracks: int) -> Ints:
-    ends = (links.first.astype(np.int32), links.second.astype(np.int32))
-    graph = csr_array((np.ones(len(links.first)), ends), shape=(tracks, tracks))
-    return np.asarray(connected_components(graph, directed=False)[1], np.int64)
+    """Return the component of each track: a link is like a plot in two gates."""
+    link = np.arange(len(links.first))
+    track, plot = np.concatenate([links.first, links.second]), np.concatenate([link, link])
+    return clusters(track, plot, tracks, len(link))[0]
 
 
 @dataclass(frozen=True)
@@ -153,11 +161,8 @@ def _together(size: int, first: Ints, second: Ints, chance: Floats, label: Ints)
 def _joined(parts: list[_Part], existence_apart: Floats) -> Groups:
     """Return the parts as one: sets of more than one track are numbered behind the tracks."""
     sets: list[tuple[Ints, Ints]] = []
-    units, groups, number = (
-        [],
-        np.concatenate([part.group for part in parts]),
-        len(existence_apart),
-    )
+    units, number = [], len(existence_apart)
+    groups = np.concatenate([part.group for part in parts])
     for part in parts:
         size = part.members.shape[1]
         is_set = _bits(part.mask, size).sum(axis=1) > 1

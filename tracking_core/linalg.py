@@ -79,17 +79,19 @@ def inverse(matrix: Floats) -> tuple[Floats, Floats]:
 
 
 def is_positive_definite(matrix: Floats) -> Bools:
-    """Return for each (..., n, n) whether every pivot is positive and finite."""
+    """Return for each symmetric (..., n, n) whether every pivot is positive and finite."""
     n = matrix.shape[-1]
-    pivots = matrix.reshape(-1, n, n).transpose(1, 2, 0).copy()  # many matrices innermost: fast
+    pivots = matrix.T.copy()
     good = np.isfinite(pivots).all(axis=(0, 1))
     with np.errstate(all='ignore'):  # of those that are not
         for k in range(n):
             good &= pivots[k, k] > 0.0
+            if k == n - 1:
+                break
             pivots[k + 1 :, k + 1 :] -= pivots[k + 1 :, None, k] * (
                 pivots[None, k, k + 1 :] / pivots[k, k]
             )
-    return np.asarray(good.reshape(matrix.shape[:-2]))
+    return np.asarray(good.T)
 
 
 def over_modes(join: np.ufunc, values: Floats) -> Floats:

@@ -48,26 +48,25 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
         middle = 0.5 * (coverage.start_time + coverage.end_time)
         return Looks(np.full(len(time), middle), np.ones(len(time), bool))
     period = 2.0 * np.pi / abs(rate)
-    latest = np.full(len(time), coverage.end_time)
+    (x, y), (vx, vy) = (position - coverage.sensor_position[:2]).T, velocity.T
+
+    def azimuth(lag: Floats) -> Floats:
+        return np.asarray(np.arctan2(y + vy * lag, x + vx * lag))
+
+    lag = coverage.end_time - time
     for _ in range(2):  # the contact moves while the antenna turns
-        azimuth = _azimuth(position + velocity * (latest - time)[:, None], coverage)
-        latest = coverage.end_time - _travel(azimuth, coverage) / abs(rate)
+        lag = coverage.end_time - _travel(azimuth(lag), coverage) / abs(rate) - time
     margin = LARGEST_MARGIN * period
     # A pass may have waited for its neighbours; longer ago than that it was lost.
     waited = (LONGEST_WAIT + LARGEST_MARGIN) * period if coverage.contiguous else 0.0
-    earliest = np.maximum(time + 0.5 * period, coverage.start_time - waited)
-    turns = np.ceil((earliest - latest) / period - 1e-9)
-    passed = latest + np.maximum(turns, -1.0) * period
-    # A turn after `latest` the contact is elsewhere, by more than its gate if it is fast and near.
-    azimuth = _azimuth(position + velocity * (passed - time)[:, None], coverage)
-    antenna = coverage.start_azimuth + rate * (passed - coverage.start_time)
-    passed = np.maximum(passed + wrap_angle(azimuth - antenna) / rate, time + 0.5 * period)
+    earliest = np.maximum(0.5 * period, coverage.start_time - waited - time)
+    turns = np.ceil((earliest - lag) / period - 1e-9)
+    passed = lag + np.maximum(turns, -1.0) * period
+    # A turn later the contact is elsewhere, by more than its gate if it is fast and near.
+    antenna = coverage.start_azimuth + rate * (passed + (time - coverage.start_time))
+    passed = passed + wrap_angle(azimuth(passed) - antenna) / rate
+    passed = time + np.maximum(passed, 0.5 * period)
     return Looks(passed, passed - margin < coverage.end_time)
-
-
-def _azimuth(position: Floats, coverage: Coverage) -> Floats:
-    x, y = coverage.sensor_position[:2]
-    return np.asarray(np.arctan2(position[:, 1] - y, position[:, 0] - x))
 
 
 def _travel(azimuth: Floats, coverage: Coverage) -> Floats:
@@ -104,8 +103,10 @@ def inside_coverage(position: Floats, coverage: Coverage) -> Bools:
         return _in_sector(position[:, 0], coverage)
     offset = position - np.array(coverage.sensor_position[: position.shape[1]])
     distance = np.sqrt(np.einsum('td,td->t', offset, offset))
-    angle = np.arctan2(offset[:, 1], offset[:, 0])
     within = (distance >= coverage.range_min) & (distance <= coverage.range_max)
+    if coverage.sector_width >= 2.0 * np.pi:
+        return np.asarray(within)
+    angle = np.arctan2(offset[:, 1], offset[:, 0])
     return np.asarray(within & _in_sector(angle, coverage))
 
 

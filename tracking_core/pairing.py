@@ -74,21 +74,18 @@ def open_gates(
 
     """
     T, d = len(mixtures[0].mean), sensor.dimensions
-    mean, variance = np.zeros((T, d)), np.zeros((T, d))
-    velocity, velocity_variance = np.zeros((T, d)), np.zeros((T, d))
+    mean, variance, velocity, velocity_variance, low, high = np.zeros((6, d, T)).swapaxes(1, 2)
     moments = [mixture.moments() for mixture in mixtures]
     for plane, (m, P) in zip(planes, moments, strict=True):
-        at, diagonal = list(plane.coordinates), P.diagonal(0, 1, 2)
-        place, rate = axes_of(at)
+        at, diagonal = plane.part, P.diagonal(0, 1, 2)
+        place, rate = axes_of(plane.coordinates)
         mean[:, at], velocity[:, at] = m[:, place], m[:, rate]
         variance[:, at], velocity_variance[:, at] = diagonal[:, place], diagonal[:, rate]
     R, excess = sensor.noise(mean, scan.coverage), np.array(scan.excess)
-    low, high = np.empty((T, d)), np.empty((T, d))
     volume = np.full(T, _UNIT_BALL[d] * threshold ** (0.5 * d))
     for plane, mixture, (_, P) in zip(planes, mixtures, moments, strict=True):
-        at = list(plane.coordinates)
-        noise = R[:, at][:, :, at]
-        place, _ = axes_of(at)
+        at, (place, _) = plane.part, axes_of(plane.coordinates)
+        noise = R[:, at, at]
         spread = mixture.covariance.diagonal(0, 2, 3)[..., place]
         variance_here = spread + noise.diagonal(0, 1, 2)[:, None] + excess[at]
         variance_here = np.maximum(variance_here, 0.0)
@@ -142,8 +139,7 @@ def pair(
     find = sector_pairs if is_angular else box_pairs
     track, plot = find(gates.centre, reach, scan.position)
     lag = scan.time[plot] - time[track]
-    near = np.abs(lag) <= longest_lag[track] + 1e-9
-    pairs = Pairs(track[near], plot[near], lag[near])
+    pairs = take(Pairs(track, plot, lag), np.abs(lag) <= longest_lag[track] + 1e-9)
     expected = gates.centre[pairs.track] if is_angular else None
     gated, dof = _innovate(planes, mixtures, gates, pairs, scan, expected)
     return take(gated, gated.distance <= bounds[dof])

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,14 +23,21 @@ class Predicted:
     """Tracks that the antenna passes, brought to the time of the pass."""
 
     row: Ints  # (T,) in all tracks
-    tracks: Tracks  # as they were at their last look
-    time: Floats  # (T,) of the pass [s]
+    tracks: Tracks  # planes, existence and time are predicted, the rest is of their last look
     margin: Floats  # (T,) until the gate is left behind [s]
-    planes: tuple[Mixture, ...]  # predicted
     gates: Gates
-    existence_probability: Floats  # (T,) predicted
     detection: Floats  # (T,) P_D, 0 outside the coverage
     crowd: Floats  # (T,) plot space in the gate: how many strange plots it may hold
+
+    @property
+    def time(self) -> Floats:
+        """When the antenna points at them (T,) [s]."""
+        return self.tracks.time
+
+    @property
+    def planes(self) -> tuple[Mixture, ...]:
+        """Predicted."""
+        return self.tracks.planes
 
 
 def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
@@ -48,9 +55,12 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
     gates = open_gates(setup.planes, planes, setup.sensor, scan, threshold)
     widest = gates.half_size[:, :2].max(axis=1, initial=0.0)
     inside = inside_coverage(gates.centre, scan.coverage)
+    predicted = replace(
+        near, planes=planes, time=time, existence_probability=setup.lifecycle.prior(near, dt)
+    )
     return Predicted(
-        row, near, time, margins(gates.centre[:, :2], widest, scan.coverage), planes, gates,
-        setup.lifecycle.prior(near, dt), np.where(inside, setup.sensor.detection_probability, 0.0),
+        row, predicted, margins(gates.centre[:, :2], widest, scan.coverage), gates,
+        np.where(inside, setup.sensor.detection_probability, 0.0),
         gates.volume * setup.sensor.clutter_volume(gates.centre, scan.coverage),
     )  # fmt: skip
 

@@ -60,8 +60,9 @@ def near_pairs(
     reach = resolution.sensor.reach(places.mean, coverage) * (1.0 + _SIGMAS * resolution.softness)
     find = sector_pairs if is_angular else box_pairs
     one, other = find(places.mean, reach + 2.0 * _SIGMAS * sd, places.mean)
-    pairs = np.stack([np.minimum(one, other), np.maximum(one, other)])[:, one != other]
-    first, second = np.unique(pairs, axis=1)
+    T, apart = len(sd), one != other
+    pairs = np.unique((np.minimum(one, other) * T + np.maximum(one, other))[apart])
+    first, second = np.divmod(pairs, max(T, 1))
     chance = _chance(places, first, second, coverage, resolution)
     keep = chance >= resolution.least_chance
     return first[keep], second[keep], np.minimum(chance[keep], _LARGEST_CHANCE)

@@ -135,4 +135,6 @@ def _other_sources(gated: Gated, scan: Scan, setup: Setup, density: Density) -> 
     plot = gated.pairs.plot
     other = density.total * scan.clutter_volume[plot]
     has_range_rate = np.isfinite(scan.range_rate[plot])
+    if not has_range_rate.any():
+        return np.asarray(other)
     return np.where(has_range_rate, other * setup.sensor.range_rate_density, other)

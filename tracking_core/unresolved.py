@@ -65,7 +65,7 @@ def add_common(
     if not likely.any():
         return gated, None
     links = Links(first[likely], second[likely], chance[likely])
-    groups = group_tracks(links, passed.existence_probability)
+    groups = group_tracks(links, passed.tracks.existence_probability)
     sets = as_one(places, groups, passed.tracks.level, angular)
     found = candidates(places, sets, groups, passed, scan, setup, resolution)
     laws = compare(places, sets, groups, scan, setup, resolution, found)

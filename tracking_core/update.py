@@ -92,9 +92,8 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     gated = _of_tracks(gated, due & (near.detection > 0.0), due)
     passed = take(near, due)
     gated, common = add_common(passed, gated, scan, setup)
-    share = share_plots(
-        passed.existence_probability, passed.detection, gated, scan, setup, density, common
-    )
+    existence = passed.tracks.existence_probability
+    share = share_plots(existence, passed.detection, gated, scan, setup, density, common)
     updated, ended, broken = _update(passed, gated, share, scan, setup)
     ended |= passed.crowd * density.total > _LOST  # it follows nobody any more
 
@@ -161,7 +160,6 @@ def _update(
     weighted = sum_by_track(share.association.probability * gated.distance, track, T)
     tracks = replace(
         count_looks(passed.tracks, hit),
-        time=passed.time,
         planes=planes,
         existence_probability=share.existence_probability,
         gate_size=passed.gates.three_sigma,
@@ -179,6 +177,8 @@ def _follow_level(tracks: Tracks, gated: Gated, share: Share, scan: Scan) -> Flo
     """Return the usual snr (T,) [dB]: plots in common do not tell whose it is."""
     track, T, snr = gated.pairs.track, len(tracks), scan.snr[gated.pairs.plot]
     told = (gated.common < 0) & np.isfinite(snr)
+    if not told.any():
+        return tracks.level
     weight = np.where(told, share.association.probability, 0.0)
     total = sum_by_track(weight, track, T)
     mean = sum_by_track(weight * np.where(told, snr, 0.0), track, T) / np.maximum(total, 1e-300)

@@ -27,9 +27,9 @@ class ConstantVelocity:
 
     def transition(self, dt: Floats) -> Floats:
         """Return F (T, n, n) over the times dt (T,) [s]."""
-        matrix = np.zeros((len(dt), 2 * self.axes, 2 * self.axes), order='F')
+        matrix = np.empty((len(dt), 2 * self.axes, 2 * self.axes), order='F')
+        matrix[:] = np.eye(2 * self.axes)
         for place in range(0, 2 * self.axes, 2):
-            matrix[:, place, place] = matrix[:, place + 1, place + 1] = 1.0
             matrix[:, place, place + 1] = dt
         return matrix
 
@@ -40,11 +40,10 @@ class ConstantVelocity:
 
 def white_acceleration_noise(dt: Floats, acceleration_sd: float, axes: int) -> Floats:
     """Return G G^T (T, n, n), G = acceleration_sd (dt^2/2, dt) on each axis, dt (T,) [s]."""
-    to_position, to_velocity = acceleration_sd * 0.5 * dt * dt, acceleration_sd * dt
-    cross = to_position * to_velocity
+    G = np.empty((len(dt), 2), order='F')
+    G[:, 0], G[:, 1] = acceleration_sd * 0.5 * dt * dt, acceleration_sd * dt
+    on_axis = G[:, :, None] * G[:, None, :]
     matrix = np.zeros((len(dt), 2 * axes, 2 * axes), order='F')
     for place in range(0, 2 * axes, 2):
-        matrix[:, place, place] = to_position**2
-        matrix[:, place + 1, place + 1] = to_velocity**2
-        matrix[:, place, place + 1] = matrix[:, place + 1, place] = cross
+        matrix[:, place : place + 2, place : place + 2] = on_axis
     return matrix
