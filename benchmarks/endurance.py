@@ -45,6 +45,7 @@ GROWTH, DRIFT = 0.02, 0.10  # of memory; of the cost of a turn beside our own, w
 DELETED = 2
 MEGABYTE, MILLISECOND = 1e6, 1e-3
 MAX_ROWS = 100_000
+PATIENCE = 120.0  # s for an answer: the transport takes megabytes slowly on a busy machine
 
 
 @dataclass
@@ -154,7 +155,9 @@ def _ask(probe: TrackerProbe, plots: Any, stamp: float) -> Columns:
     """Send plots, once more if nothing comes; return the track table that answers them."""
     probe.tables.clear()
     probe.diagnostics.clear()
-    probe.peer.ask(lambda _: probe.send(plots, stamp), lambda: probe.is_answered(stamp))
+    probe.peer.ask(
+        lambda _: probe.send(plots, stamp), lambda: probe.is_answered(stamp), deadline=PATIENCE
+    )
     return to_columns(probe.tables[-1], MAX_ROWS)
 
 

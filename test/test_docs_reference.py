@@ -131,10 +131,10 @@ def normal(line):
     return re.sub(r'-?\d+(\.\d+)?', '0', line.strip())
 
 
-def own_ship(stamp, frame='map'):
+def own_ship(stamp, frame='map', x=0.0):
     """Return odometry of a ship at rest."""
     msg = Odometry(header=TYPES.header(stamp, frame))
-    msg.pose.pose.orientation.w = 1.0
+    msg.pose.pose.orientation.w, msg.pose.pose.position.x = 1.0, x
     return msg
 
 
@@ -164,6 +164,8 @@ def lines_of_sessions():
     use(message(), message())
     use(message(), *(message(500.0 + step) for step in range(4)))
     use(message(), odometry=[own_ship(90.0)])
+    leap = [own_ship(90.0), own_ship(90.5), *(own_ship(91.0 + step, x=1e3) for step in range(3))]
+    use(odometry=leap)
     return said
 
 

@@ -5,6 +5,7 @@
 import numpy as np
 
 from msg_adapters.message_types import seconds
+from tracking_tools.testing import confirmed_ids
 
 MESSAGES, PLOTS = 45, 4000  # fewer messages than the transport keeps
 MAX_DELAY = 0.2  # s
@@ -59,3 +60,18 @@ def test_two_publishers_of_plots_are_reported(start_node, probe):
 
     probe.peer.ask(send, is_warned, warning, again=0.2)
     probe.spin_until(lambda: probe.diagnosed('plots publishers') == '2', 'the number of them')
+
+
+def test_limits_of_tracks_and_plots_hold(start_node, probe):
+    """With room for two, the third contact is refused; a message with too many rows hurts none."""
+    start_node(RELIABLE, 'max_tracks:=2', 'max_plots:=50')
+    probe.meet()
+    tables = [probe.scan() for _ in range(10)]
+    assert max((table['status'] < 2).sum() for table in tables) == 2
+    before = confirmed_ids(tables[-1])
+    assert len(before) == 2
+    columns = {name: values[:51] for name, values in noise(np.random.default_rng(0)).items()}
+    probe.send(columns, probe.stamp + 1.0)
+    probe.spin_until(lambda: probe.diagnosed('plots messages refused') == '1', 'a refusal')
+    assert confirmed_ids(probe.scan()) == before
+    assert any('close to max_tracks' in m.status[0].message for m in probe.diagnostics)
