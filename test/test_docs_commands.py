@@ -132,6 +132,13 @@ def check_options(module, arguments, monkeypatch, capsys):
         assert all(word in said for word in ours if word.startswith('--'))
 
 
+@pytest.mark.parametrize('page', [ROOT / 'README.md', *sorted(ROOT.glob('docs/**/*.md'))], ids=str)
+def test_modules_that_a_page_names_exist(page):
+    """Commands in the running text, in tables and in results too."""
+    for module in re.findall(r'python -m ([a-z_][\w.]*\w)', page.read_text(encoding='utf-8')):
+        assert module.endswith('NAME') or find_spec(module) is not None, module
+
+
 @pytest.mark.parametrize('words', of('make'))
 def test_make_has_the_target(words):
     """What they do has tests of its own."""

@@ -23,15 +23,15 @@ LONG_FILES = {'tracking_core/batches.py': 'the glossary: every batch in one plac
 NOT_IN_ROSDEP = {'setuptools', 'rosbags'}  # part of Python there; has a pip key only
 IMPORT_NAMES = {'pyyaml': 'yaml'}
 SHARED = {'launch', 'config', 'policies', 'rviz', 'foxglove'}
-LAUNCH = {'launch', 'launch_ros'}  # no wheels: present on a ROS machine only
+LAUNCH = {'launch', 'launch_ros', 'ros2bag'}  # no wheels: present on a ROS machine only
 
 # Looked up in rosdep/python.yaml (for Ubuntu) and jazzy/distribution.yaml of ros/rosdistro.
 ROSDEP_KEYS = {
     'python3-hypothesis', 'python3-matplotlib', 'python3-numpy', 'python3-pytest',
     'python3-scipy', 'python3-tqdm', 'python3-yaml',
     'builtin_interfaces', 'diagnostic_msgs', 'geometry_msgs', 'launch', 'launch_ros',
-    'lifecycle_msgs', 'nav_msgs', 'rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'sensor_msgs',
-    'std_msgs', 'std_srvs', 'visualization_msgs',
+    'lifecycle_msgs', 'nav_msgs', 'rcl_interfaces', 'rclpy', 'ros2bag', 'rosgraph_msgs',
+    'sensor_msgs', 'std_msgs', 'std_srvs', 'visualization_msgs',
 }  # fmt: skip
 
 
