@@ -31,7 +31,8 @@ ROOT = Path(__file__).parent.parent
 PAGES = (
     'README.md',
     *(f'docs/{name}.md' for name in
-      ('radar_node', 'sonar_node', 'integrate', 'from_a_bag', 'troubleshooting', 'inputs')),
+      ('radar_node', 'sonar_node', 'integrate', 'from_a_bag', 'troubleshooting', 'inputs',
+       'evaluation')),
 )  # fmt: skip
 FENCE = re.compile(r'^```(\w*)\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 HERE = {

@@ -94,6 +94,36 @@ def test_match_of_bearings_goes_the_short_way() -> None:
         assert_allclose(found.position, -3.1 - (2.0 * np.pi - 6.2), atol=1e-12)
 
 
+@pytest.mark.parametrize('interval', [1.0, 7.0])
+def test_candidates_are_all_pairs_within_the_radius(interval: float) -> None:
+    """On circles, sampled often and seldom, the coarse look rules nothing out by mistake."""
+    rng = np.random.default_rng(8)
+    time = np.arange(0.0, 120.0, interval)
+    parts = []
+    for target in range(12):
+        rate, radius = rng.uniform(-0.2, 0.2), rng.uniform(5.0, 60.0)
+        angle = rng.uniform(0.0, 6.0) + rate * time
+        turn = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        ahead = radius * rate * np.stack([-turn[:, 1], turn[:, 0]], axis=1)
+        parts.append((np.full(len(time), target), time, radius * turn, ahead))
+    real = Truth.of(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    N = 600
+    tracks = TrackRows(
+        np.arange(N), np.arange(N), np.sort(rng.uniform(-5.0, 125.0, N)),
+        rng.uniform(-70.0, 70.0, (N, 2)), np.zeros((N, 2)), np.zeros((N, 4, 4)),
+    )  # fmt: skip
+    found = candidates(tracks, real, RADIUS, slack=3.0)
+    expected = []
+    for target in range(12):
+        path = real.target(target)
+        apart = np.linalg.norm(tracks.position - path.at(tracks.time).position, axis=1)
+        there = (tracks.time >= time[0] - 3.0) & (tracks.time <= time[-1] + 3.0)
+        expected += [(int(row), target) for row in np.flatnonzero(there & (apart <= RADIUS))]
+    assert len(expected) > 100
+    assert set(zip(found.row.tolist(), found.target.tolist(), strict=True)) == set(expected)
+    assert len(found) == len(expected)
+
+
 @pytest.mark.parametrize(('n', 'm'), [(1, 1), (3, 4), (5, 3), (4, 4), (0, 2)])
 def test_ospa_is_the_best_of_all_permutations(n: int, m: int) -> None:
     """On random distances the metric equals its definition by brute force."""

@@ -17,6 +17,7 @@ from scipy.optimize import linear_sum_assignment
 
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.rows import take
+from tracking_tools.scoring.coarse import plausible
 from tracking_tools.scoring.records import TrackRows, Truth
 
 
@@ -53,9 +54,12 @@ def candidates(rows: TrackRows, truth: Truth, radius: float, slack: float) -> Ma
         For so long before and after its samples a target goes straight on [s].
 
     """
-    found = [_near(rows, truth.target(target), radius, slack) for target in np.unique(truth.id)]
+    found = [
+        _near(rows, row, target, radius, slack)
+        for row, target in plausible(rows, truth, radius, slack)
+    ]
     if not found:
-        found = [_near(take(rows, slice(0, 0)), truth, radius, slack)]
+        found = [_near(rows, np.zeros(0, np.int64), truth, radius, slack)]
     joined = Matches(
         *(np.concatenate([getattr(part, name) for part in found]) for name in _FIELDS)
     )
@@ -65,12 +69,12 @@ def candidates(rows: TrackRows, truth: Truth, radius: float, slack: float) -> Ma
 _FIELDS = ('row', 'scan', 'track', 'target', 'distance', 'position', 'velocity', 'turning')
 
 
-def _near(rows: TrackRows, target: Truth, radius: float, slack: float) -> Matches:
+def _near(rows: TrackRows, row: Ints, target: Truth, radius: float, slack: float) -> Matches:
     if len(target.time) == 0:
         none, space = np.zeros(0, np.int64), np.zeros((0, rows.position.shape[1]))
         return Matches(none, none, none, none, np.zeros(0), space, space, np.zeros(0, bool))
     begin, end = target.time[0] - slack, target.time[-1] + slack
-    row = np.flatnonzero((rows.time >= begin) & (rows.time <= end))
+    row = row[(rows.time[row] >= begin) & (rows.time[row] <= end)]
     place = target.at(rows.time[row])
     position = rows.beside(row, place.position)
     distance = np.linalg.norm(rows.position[row] - position, axis=1)
