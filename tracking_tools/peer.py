@@ -134,6 +134,14 @@ class Peer:
             others = getattr(end, 'get_subscription_count', None) or end.get_publisher_count
             self.spin_until(others, f'somebody else on {end.topic_name}', deadline)
 
+    def wait_for_node(self, name: str, deadline: float = DEADLINE) -> None:
+        """Wait until a node of this full name is in the graph: it can be asked for its topics."""
+        place, _, own = name.rpartition('/')
+        wanted = own, place or '/'
+        self.spin_until(
+            lambda: wanted in self.node.get_node_names_and_namespaces(), f'node {name}', deadline
+        )
+
     def call(self, kind: Any, service: str, request: Any, deadline: float = DEADLINE) -> Any:
         """Return the answer of a service."""
         client = self.node.create_client(kind, service)

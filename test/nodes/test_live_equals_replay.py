@@ -22,7 +22,7 @@ from tracking_tools.sensors import SENSORS
 
 ROOT = Path(__file__).parents[2]
 PARAMETERS = {'radar': 'terminal_radar.yaml', 'sonar': 'passive_linear_array.yaml'}
-TURNS, CYCLES = 60, 120
+TURNS, CYCLES = 40, 60
 
 
 def record_radar(path):

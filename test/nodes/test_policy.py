@@ -29,6 +29,7 @@ def test_policy_equals_the_graph_of_the_node(start_node, probe, sensor):
     start_node()
     probe.meet()
     node, graph = sensor.node, probe.node
+    probe.peer.wait_for_node(f'/{node}')
 
     def is_equal():
         there = {

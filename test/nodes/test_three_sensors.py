@@ -49,6 +49,7 @@ def names_of(probe):
     """Return the topics and services of a probe's tracker."""
     node, place = probe.sensor.node, probe.node.get_namespace()
     graph = probe.node
+    probe.peer.wait_for_node(f'{place}/{node}')
     return {
         name
         for ask in (
