@@ -32,7 +32,7 @@ class Fault:
 
     name: str
     act: Callable[[Stage], None]  # returns when the fault is over
-    parameters: tuple[str, ...] = ()
+    parameters: tuple[str, ...] = ()  # of the node; {folder} is one of the fault's own
     is_afloat: bool = False
     has_clock: bool = False
     forgets: bool = False  # the tracker is another one, and begins with id 1
@@ -63,8 +63,9 @@ def staged(fault: Fault, folder: Path) -> Iterator[tuple[Stage, Scan]]:
     """Yield the stage of a fault, and what it does each scan."""
     folder.mkdir(parents=True, exist_ok=True)
     with private_domain() as domain:
+        parameters = [parameter.format(folder=folder) for parameter in fault.parameters]
         stage = Stage(
-            domain, folder, *fault.parameters, is_afloat=fault.is_afloat,
+            domain, folder, *parameters, is_afloat=fault.is_afloat,
             has_clock=fault.has_clock,
         )  # fmt: skip
         with stage.open:

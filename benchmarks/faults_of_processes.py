@@ -93,6 +93,11 @@ KILL_SHIP = Fault(
 KILLS = (KILL_PLOTS, KILL_NODE, KILL_SHIP)
 PROCESS_FAULTS = (
     *KILLS,
+    Fault(
+        'tracker killed, started again with its snapshot',
+        kill_node,
+        ('snapshot.file:={folder}/tracks', 'snapshot.period:=1.0'),
+    ),
     Fault('tracker started late, the radar has long been there', start_late, forgets=True),
     Fault(f'radar silent for {SILENCE * PERIOD:g} s', say_nothing),
     Fault('a second publisher sends the same plots', add_source),
