@@ -9,59 +9,44 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
+SHIPPED = PathJoinSubstitution([FindPackageShare('contact_tracking'), 'config', 'sonar.yaml'])
+TOPICS = ('bearings', 'ownship')
+# Name, default and meaning.
+ARGUMENTS = (
+    ('params_file', SHIPPED, 'parameter file of the node'),
+    ('namespace', '', 'namespace of the node and its topics'),
+    ('bearings', 'bearings', 'topic with the marks'),
+    ('ownship', 'ownship', 'topic with the odometry of the platform, if it moves'),
+    ('use_sim_time', 'false', 'take the time from /clock'),
+    ('autostart', 'true', 'configure and activate the node at once'),
+    ('log_level', 'info', 'debug, info, warn, error or fatal'),
+)
+
 
 def generate_launch_description():
     """Describe one node and the arguments that a site sets."""
-    shipped = PathJoinSubstitution([FindPackageShare('contact_tracking'), 'config', 'sonar.yaml'])
-    return LaunchDescription(
-        [
-            DeclareLaunchArgument(
-                'params_file', default_value=shipped, description='parameter file of the node'
-            ),
-            DeclareLaunchArgument(
-                'namespace', default_value='', description='namespace of the node and its topics'
-            ),
-            DeclareLaunchArgument(
-                'bearings', default_value='bearings', description='topic with the marks'
-            ),
-            DeclareLaunchArgument(
-                'ownship',
-                default_value='ownship',
-                description='topic with the odometry of the platform, if it moves',
-            ),
-            DeclareLaunchArgument(
-                'use_sim_time', default_value='false', description='take the time from /clock'
-            ),
-            DeclareLaunchArgument(
-                'autostart',
-                default_value='true',
-                description='configure and activate the node at once',
-            ),
-            DeclareLaunchArgument(
-                'log_level', default_value='info', description='debug, info, warn, error or fatal'
-            ),
-            Node(
-                package='contact_tracking',
-                executable='sonar_tracker',
-                name='sonar_tracker',
-                namespace=LaunchConfiguration('namespace'),
-                output='screen',
-                parameters=[
-                    LaunchConfiguration('params_file'),
-                    {
-                        'use_sim_time': ParameterValue(
-                            LaunchConfiguration('use_sim_time'), value_type=bool
-                        ),
-                        'autostart': ParameterValue(
-                            LaunchConfiguration('autostart'), value_type=bool
-                        ),
-                    },
-                ],
-                remappings=[
-                    ('bearings', LaunchConfiguration('bearings')),
-                    ('ownship', LaunchConfiguration('ownship')),
-                ],
-                arguments=['--ros-args', '--log-level', LaunchConfiguration('log_level')],
-            ),
-        ]
+    declared = [
+        DeclareLaunchArgument(name, default_value=default, description=meaning)
+        for name, default, meaning in ARGUMENTS
+    ]
+    return LaunchDescription([*declared, _tracker()])
+
+
+def _tracker():
+    return Node(
+        package='contact_tracking',
+        executable='sonar_tracker',
+        name='sonar_tracker',
+        namespace=LaunchConfiguration('namespace'),
+        output='screen',
+        parameters=[
+            LaunchConfiguration('params_file'),
+            {name: _switch(name) for name in ('use_sim_time', 'autostart')},
+        ],
+        remappings=[(topic, LaunchConfiguration(topic)) for topic in TOPICS],
+        arguments=['--ros-args', '--log-level', LaunchConfiguration('log_level')],
     )
+
+
+def _switch(name):
+    return ParameterValue(LaunchConfiguration(name), value_type=bool)
