@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from hypothesis import given, settings, strategies
+from hypothesis import example, given, settings, strategies
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 import pytest
@@ -63,6 +63,7 @@ def test_associate_sums_to_one(
     plots=strategies.integers(0, 14),
     density=strategies.floats(0.0, 1.0),
 )
+@example(seed=4555, tracks=11, plots=6, density=0.75)  # all events below exp(-4000)
 def test_associate_survives_any_scene(
     associate: Associator, seed: int, tracks: int, plots: int, density: float
 ) -> None:

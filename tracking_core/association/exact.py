@@ -53,7 +53,19 @@ def marginalise_and_sum(contest: Contest) -> tuple[Floats, Floats]:
     if not safe.all():
         for batch in _batches(layout, ~safe):
             _solve(layout, batch, LOGARITHMIC, probability, log_sum)
+        probability = _bound(_bound(probability, contest.track), contest.plot)
     return probability, log_sum + layout.log_scale
+
+
+def _bound(probability: Floats, group: Ints) -> Floats:
+    """
+    Divide by the sum of each group (P,) where rounding has carried it above 1.
+
+    Logarithms of some thousands are good to 1e-12, and so is the exponential of a difference of
+    two. The miss is what a sum leaves of 1: it makes up for less than 1, but not for more.
+    """
+    total = np.bincount(group, probability)
+    return np.asarray(probability / np.maximum(total, 1.0)[group])
 
 
 @dataclass(frozen=True)
