@@ -11,6 +11,7 @@ moved, and tracking starts anew.
 from __future__ import annotations
 
 from dataclasses import dataclass
+import math
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from tracking_core.batches import Floats
 from tracking_core.platform import Platform
 
 AGREEING = 3  # places in a row that make a leap believed
+SPREAD = 4.0  # standard deviations by which two places may differ and still agree
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,7 @@ class _Place:
     position: Floats  # (3,) [m]
     velocity: Floats  # (3,) as told; zero where the odometry has no twist [m/s]
     pace: Floats | None  # (3,) from the sample before to this one [m/s]
+    variance: float  # of the position as told, all axes together [m^2]
 
     def off(self, later: _Place) -> float:
         """Return how far [m] a later place is from where this one led, by twist or by pace."""
@@ -39,6 +42,10 @@ class _Place:
             return float(told)
         return float(min(told, np.linalg.norm(moved - step * self.pace)))
 
+    def doubt(self, later: _Place) -> float:
+        """Return how far [m] the two places may be apart by what they do not know themselves."""
+        return SPREAD * math.sqrt(self.variance + later.variance)
+
 
 class LeapGuard:
     """
@@ -47,7 +54,8 @@ class LeapGuard:
     Parameters
     ----------
     limit : float
-        A place may be so far from where the last ones led [m]; 0: anywhere.
+        A place may be so far from where the last ones led [m], and farther where its covariance
+        says that it is not known so well; 0: anywhere.
     memory : float
         After a longer silence nothing is known [s].
 
@@ -77,17 +85,20 @@ class LeapGuard:
         self._newest = place
         if before is None or last is None or place.time - before.time > self._memory:
             return self._believe(place, False)
-        if self._limit == 0.0 or last.pace is None or last.off(place) <= self._limit:
+        if self._limit == 0.0 or last.pace is None or self._leads_to(last, place):
             return self._believe(place, False)
-        agrees = before is not last and before.off(place) <= self._limit
+        agrees = before is not last and self._leads_to(before, place)
         self._strangers = self._strangers + 1 if agrees else 1
         if self._strangers >= AGREEING:
             return self._believe(place, True)
         raise BadMessage(
             'own ship leaps',
             f'pose.pose.position is {last.off(place):.0f} m from where the last ones led; '
-            f'limit {self._limit:g} m (ownship_leap)',
+            f'limit {self._limit + last.doubt(place):.0f} m (ownship_leap)',
         )
+
+    def _leads_to(self, place: _Place, later: _Place) -> bool:
+        return place.off(later) <= self._limit + place.doubt(later)
 
     def _believe(self, place: _Place, has_leapt: bool) -> bool:
         self._last, self._strangers = place, 0
@@ -98,4 +109,5 @@ class LeapGuard:
         before, pace = self._newest, None
         if before is not None and 0.0 < time - before.time <= self._memory:
             pace = (position - before.position) / (time - before.time)
-        return _Place(time, position, sample.velocity[0], pace)
+        variance = float(np.trace(sample.position_covariance[0]))
+        return _Place(time, position, sample.velocity[0], pace, variance)

@@ -98,8 +98,8 @@ class NodeConfig:
     )  # fmt: skip
     ownship_leap: float = parameter(
         100.0, unit='m', low=0.0, high=1e6,
-        doc='a place of own ship further from where its last ones led is refused until several in '
-        'a row agree; 0: none is',
+        doc='a place of own ship further from where its last ones led, by more than its '
+        'covariance explains, is refused until several in a row agree; 0: none is',
     )  # fmt: skip
 
     def __post_init__(self) -> None:

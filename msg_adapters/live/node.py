@@ -115,6 +115,11 @@ class TrackerNode(LifecycleNode):
         self._close()
         return super().on_error(state)
 
+    def destroy_node(self) -> None:
+        """Keep the tracks where that is wanted, also when no transition came before."""
+        self._close()
+        super().destroy_node()
+
     def _close(self) -> None:
         live, self._live = self._live, None
         if live is not None:

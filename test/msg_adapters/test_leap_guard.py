@@ -12,12 +12,12 @@ from tracking_core.platform import Platform
 STEP = 0.5  # s
 
 
-def sample(time, x, speed=0.0):
+def sample(time, x, speed=0.0, sd=0.0):
     """Return one odometry; without a speed it has no twist."""
     return Platform(
         time=np.array([time]), position=np.array([[x, 0.0, 0.0]]),
         orientation=np.array([[0.0, 0.0, 0.0, 1.0]]), velocity=np.array([[speed, 0.0, 0.0]]),
-        position_covariance=np.zeros((1, 3, 3)), yaw_variance=np.zeros(1),
+        position_covariance=sd**2 * np.eye(3)[None], yaw_variance=np.zeros(1),
     )  # fmt: skip
 
 
@@ -54,6 +54,16 @@ def test_accept_believes_a_leap_that_stays():
             sail(guard, 1, start=k, leap=1000.0)
     assert sail(guard, 1, start=6, leap=1000.0)
     assert not sail(guard, 4, start=7, leap=1000.0)
+
+
+def test_accept_lets_a_place_be_as_far_off_as_its_covariance_says():
+    """A ship that says that it is lost by 100 m is no leap at 300 m, and is one at 1500 m."""
+    guard = LeapGuard(100.0, 2.0)
+    rng = np.random.default_rng(1)
+    for k in range(100):
+        assert not guard.accept(sample(STEP * k, rng.normal(0.0, 100.0), sd=100.0))
+    with pytest.raises(BadMessage, match='limit 1080 m'):
+        guard.accept(sample(STEP * 100, 1500.0, sd=100.0))
 
 
 def test_accept_never_believes_places_that_do_not_agree():

@@ -10,6 +10,7 @@ import time
 
 import pytest
 
+from msg_adapters.message_types import seconds
 from msg_adapters.table import to_columns
 from tracking_tools.feeds.clock import DAY
 from tracking_tools.feeds.sources import open_udp
@@ -42,8 +43,8 @@ def test_udp_feed_becomes_tracks(start_node, probe):
         steps = count()
 
         def is_tracked():
-            seconds = 0.25 * next(steps)
-            good = datagram((start + seconds) % DAY, 10.0 + 0.01 * seconds)
+            flown = 0.25 * next(steps)
+            good = datagram((start + flown) % DAY, 10.0 + 0.01 * flown)
             for data in (b'0', good, bytes([48, 255, 255]), b''):
                 radar.sendto(data, ('127.0.0.1', port))
             tables = [to_columns(msg, 9) for msg in probe.tables[-1:]]
@@ -55,6 +56,7 @@ def test_udp_feed_becomes_tracks(start_node, probe):
     assert feed.returncode == 0
     assert 'Traceback' not in said.decode()
     assert 'truncated or of wrong length' in said.decode()
-    track = to_columns(probe.tables[-1], 9)
-    assert abs(track['x'][0] - 18520.0) < 200.0
+    msg = probe.tables[-1]
+    track, flown = to_columns(msg, 9), seconds(msg.header.stamp) % DAY - start
+    assert abs(track['x'][0] - (18520.0 + 18.52 * flown)) < 100.0  # plots have 1/256 NM
     assert abs(track['y'][0]) < 100.0

@@ -73,5 +73,9 @@ def test_three_sensors_do_not_meet(probes):
     assert all(len(each) > 15 for each in names)
     for one, other in combinations(names, 2):
         assert one & other <= SHARED
-    told = {msg.status[0].name for msg in probes['array'].diagnostics}
-    assert told == {f'ship/{name}/{sensor.node}: tracking' for name, sensor in SENSORS.items()}
+    wanted = {f'ship/{name}/{sensor.node}: tracking' for name, sensor in SENSORS.items()}
+    heard = probes['array'].diagnostics
+    probes['array'].spin_until(
+        lambda: wanted <= {msg.status[0].name for msg in heard}, 'diagnostics of all three'
+    )
+    assert {msg.status[0].name for msg in heard} == wanted
