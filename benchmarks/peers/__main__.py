@@ -21,9 +21,10 @@ from benchmarks.peers.entrants import Entrant, ENTRANTS
 from benchmarks.peers.menu import Entry, MENU
 from benchmarks.peers.race import memory, race
 from benchmarks.peers.report import Result, sections
+from benchmarks.peers.shelf import keep, kept
 from benchmarks.peers.summary import compare
 
-MEMORY_SCANS, MEMORY_LIMIT = 8, 60.0  # [s]
+MEMORY_SCANS, MEMORY_LIMIT = 8, 30.0  # [s]
 TEMPLATE = Path(__file__).with_name('results.md')
 
 
@@ -84,8 +85,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if name in (chosen.only or MENU)
     }
     total = sum(one.scans * one.runs for one in entries.values()) * len(entrants)
+    results = {}
     with tqdm(total=total, unit='scan', disable=None) as bar:
-        results = {name: run(one, entrants, chosen.limit, bar) for name, one in entries.items()}
+        for name, one in entries.items():
+            results[name] = run(one, entrants, chosen.limit, bar)
+            if chosen.keep is not None:
+                keep(chosen.keep, name, results[name])
+    if chosen.keep is not None:
+        results = kept(chosen.keep)
     tables = '\n\n'.join(f'## {title}\n\n{text}' for title, text in sections(results))
     page = TEMPLATE.read_text(encoding='utf-8')
     page = page.replace('{machine}', machine(entrants)).replace('{tables}', tables)
@@ -105,6 +112,7 @@ def _parser() -> argparse.ArgumentParser:
     add('--runs', type=int, default=10_000, help='at most, of each scene')
     add('--limit', type=float, default=300.0, metavar='S',
         help='CPU after which a tracker gets no more scans of a run (default 300)')  # fmt: skip
+    add('--keep', type=Path, metavar='DIR', help='keep results here; the page has all of them')
     add('--output', type=Path, metavar='FILE', help='Markdown; default: standard output')
     return parser
 

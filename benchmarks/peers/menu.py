@@ -122,12 +122,12 @@ class Entry:
 
 
 MENU = {
-    'en_route_10': Entry(partial(traffic, 10), 40, 8),
-    'en_route_50': Entry(partial(traffic, 50), 40, 4),
-    'en_route_200': Entry(partial(traffic, 200), 30, 2),
-    'en_route_1000': Entry(partial(traffic, 1000), 12, 1),
-    'formations': Entry(formations, 100, 4),
-    'crossings': Entry(crossings, 100, 8),
-    'one_that_turns': Entry(manoeuvre, 100, 20),
-    'sonar': Entry(listening, 120, 10),
+    'en_route_10': Entry(partial(traffic, 10), 40, 6),
+    'en_route_50': Entry(partial(traffic, 50), 40, 3),
+    'en_route_200': Entry(partial(traffic, 200), 16, 2),
+    'en_route_1000': Entry(partial(traffic, 1000), 10, 1),
+    'formations': Entry(formations, 90, 2),
+    'crossings': Entry(crossings, 100, 4),
+    'one_that_turns': Entry(manoeuvre, 100, 8),
+    'sonar': Entry(listening, 120, 6),
 }

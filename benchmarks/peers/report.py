@@ -72,7 +72,13 @@ def ratios(results: Results) -> str:
     for name, wanted in WANTED.items():
         for rival in _RIVALS:
             row = results[name].rows.get(rival) if name in results else None
-            if row is None or 'gospa' not in row.figures:
+            if row is None:
+                continue
+            if not row.figures:
+                lines.append(
+                    f'{results[name].title} | {row.title} | >= {wanted} | {row.ratio:.0f} in its '
+                    f'scan {row.scans} | not judged, out of time | {_yes(row.ratio >= wanted)}'
+                )
                 continue
             gospa = row.figures['gospa']
             no_worse = gospa.margin >= -1e-9
@@ -80,9 +86,13 @@ def ratios(results: Results) -> str:
             lines.append(
                 f'{results[name].title} | {row.title} | >= {wanted} | {row.ratio:.0f} '
                 f'| {gospa.mean - gospa.margin:.0f} / {gospa.mean:.0f} m '
-                f'| {"yes" if holds else "**no**"}'
+                f'| {_yes(holds)}'
             )
     return table('scene | against | wanted | measured | GOSPA ours / theirs | holds', lines)
+
+
+def _yes(holds: bool) -> str:
+    return 'yes' if holds else '**no**'
 
 
 def scene_table(result: Result) -> str:
@@ -121,7 +131,9 @@ def growth(results: Results) -> str:
     rows: dict[str, list[str]] = {}
     for name in sizes:
         for row in results[name].rows.values():
-            ms = f'{row.figures["cpu"].mean:.1f}' if row.figures else 'not finished'
+            ms = (
+                f'{row.figures["cpu"].mean:.1f}' if row.figures else f'{row.last:.0f}, out of time'
+            )
             rows.setdefault(row.title, []).append(ms)
     head = ' | '.join(['CPU a scan [ms]', *(f'{results[s].contacts:.0f} contacts' for s in sizes)])
     return table(head, [' | '.join([title, *cells]) for title, cells in rows.items()])
