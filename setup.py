@@ -58,13 +58,14 @@ setup(
             'filterpy>=1.4.5',
             'nrl-tracker>=2.11; python_version >= "3.11"',
         ],
-        'dask': ['dask[distributed]>=2024.1'],  # sweeps over more than one machine
+        'dask': ['distributed>=2024.1'],  # sweeps over more than one machine
         'feeds': ['libasterix>=0.36', 'pynmea2>=1.19', 'pyais>=2.6'],  # decoders
         # colcon runs the tests only when an extra of this name lists pytest.
         'test': [
             'pytest>=7.4',
             'pytest-cov>=4.1',
             'hypothesis>=6.98',
+            'distributed>=2024.1',
             'ruff==0.17.*',  # the next minor version may format otherwise
             'mypy==2.4.*',
             'import-linter==2.*',
@@ -84,6 +85,7 @@ setup(
             'report = tracking_tools.report.command:main',
             'simulate = tracking_tools.simulate:main',
             'sonar_tracker = sonar_tracker.node:main',
+            'sweep = tracking_tools.sweep:main',
         ],
     },
 )

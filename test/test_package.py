@@ -122,7 +122,8 @@ def test_every_import_is_declared(
 ) -> None:
     """No shipped file imports what neither package.xml nor setup.py names."""
     extras = setup_arguments['extras_require']
-    required = setup_arguments['install_requires'] + extras['tools'] + extras['report']
+    optional = extras['tools'] + extras['report'] + extras['dask']
+    required = setup_arguments['install_requires'] + optional
     assert _third_party_imports() <= _texts(manifest, 'exec_depend') | _import_names(required)
 
 

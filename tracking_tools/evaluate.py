@@ -6,31 +6,29 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-import math
 from pathlib import Path
 import sys
 
 from rosbags.highlevel import AnyReaderError
 
 from tracking_tools.bags import BadBag
-from tracking_tools.evaluation import evaluate, to_json, to_text, Yardstick
+from tracking_tools.evaluation import evaluate, to_json, to_text
+from tracking_tools.evaluation.options import add_yardstick, yardstick_of
 from tracking_tools.evaluation.reading import find_sensor
 from tracking_tools.sensors import SENSORS
+from tracking_tools.sweep import main as sweep
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    parser = _parser()
-    chosen = parser.parse_args(arguments)
+    """Run the command; many runs of a scenario are a sweep without settings."""
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    if any(word.split('=')[0] == '--runs' for word in given):
+        return sweep(given)
+    chosen = _parser().parse_args(given)
     try:
-        sensor, _ = find_sensor(chosen.tracks, chosen.remap, chosen.sensor)
-        scale = math.radians(1.0) if sensor == 'sonar' else 1.0
-        yardstick = Yardstick(
-            None if chosen.radius is None else scale * chosen.radius,
-            None if chosen.cutoff is None else scale * chosen.cutoff,
-            chosen.gospa_power, chosen.ospa_power, math.radians(chosen.turning),
-        )  # fmt: skip
         truth = chosen.tracks if chosen.truth is None else chosen.truth
+        sensor, _ = find_sensor(chosen.tracks, chosen.remap, chosen.sensor)
+        yardstick = yardstick_of(chosen, sensor)
         judgement = evaluate(chosen.tracks, truth, yardstick, chosen.remap, sensor)
         if chosen.json is not None:
             chosen.json.parent.mkdir(parents=True, exist_ok=True)
@@ -44,7 +42,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog='evaluate', description='Compare recorded tracks with the truth.'
+        prog='evaluate',
+        description='Compare recorded tracks with the truth.',
+        epilog='evaluate SCENARIO --runs N --output DIR: many runs; options as of sweep.',
     )
     add = parser.add_argument
     add('tracks', type=Path, metavar='TRACKS_BAG', help='rosbag2 directory with a track table')
@@ -52,20 +52,8 @@ def _parser() -> argparse.ArgumentParser:
     add('--json', type=Path, metavar='FILE', help='write all figures there, SI units and radians')
     add('--sensor', choices=SENSORS, help='whose tracks; default: what the bag has')
     add('--remap', action='append', default=[], metavar='FROM:=TO', help='as truth:=/my/truth')
-    add('--radius', type=_positive, help='match radius [m], default 1000; sonar [deg], 1.5')
-    add('--cutoff', type=_positive, help='of GOSPA and OSPA, default: the radius [m or deg]')
-    add('--gospa-power', type=_positive, default=2.0, metavar='P', help='default 2')
-    add('--ospa-power', type=_positive, default=1.0, metavar='P', help='default 1')
-    add('--turning', type=_positive, default=0.8, metavar='RATE',
-        help='a course that changes faster is a manoeuvre [deg/s], default 0.8')  # fmt: skip
+    add_yardstick(parser)
     return parser
-
-
-def _positive(text: str) -> float:
-    number = float(text)
-    if not 0.0 < number < math.inf:
-        raise argparse.ArgumentTypeError(f'must be above 0, got {text}')
-    return number
 
 
 if __name__ == '__main__':

@@ -23,7 +23,11 @@ POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
 
 
 def record(
-    scenario: Scenario, path: Path | str, sectors: int = 1, compress: bool = False
+    scenario: Scenario,
+    path: Path | str,
+    sectors: int = 1,
+    compress: bool = False,
+    quiet: bool = False,
 ) -> dict[str, int]:
     """
     Write the bag of a scenario: the same scenario gives the same bytes.
@@ -38,6 +42,8 @@ def record(
         ``plots`` messages in a turn.
     compress : bool
         Whether to compress the storage.
+    quiet : bool
+        Without progress.
 
     Returns
     -------
@@ -51,7 +57,11 @@ def record(
         for topic in rows:
             bag.announce(topic, POINT_CLOUD)
         for sent in tqdm(
-            send(scenario, rosbags_types(), sectors), 'simulate', steps, unit='msg', disable=None
+            send(scenario, rosbags_types(), sectors),
+            'simulate',
+            steps,
+            unit='msg',
+            disable=quiet or None,
         ):
             for topic, msg, time in sent:
                 bag.write(topic, msg, nanoseconds(EPOCH + time))

@@ -1,0 +1,162 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Check the sweep: what is done is kept and believed only if whole; its figures and tables."""
+
+from collections.abc import Callable
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tracking_tools.evaluate import main as evaluate
+from tracking_tools.sweep import main
+from tracking_tools.sweeping.figures import mean_of, SHOWN
+from tracking_tools.sweeping.store import Store
+from tracking_tools.sweeping.table import Case
+from tracking_tools.sweeping.tasks import settings_of, swept_values, Task
+
+TINY = ('crossing', '--duration', '20', '--jobs', '1', '--quiet')
+TWO = ('--runs', '2', '--set', 'sensor.detection_probability=0.7,0.9')
+
+
+def results(folder: Path) -> dict[str, bytes]:
+    """Return all result files by name."""
+    return {path.name: path.read_bytes() for path in (folder / 'runs').iterdir()}
+
+
+@pytest.fixture(scope='module')
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a sweep of two settings and two seeds."""
+    folder = tmp_path_factory.mktemp('sweep') / 'done'
+    assert main([*TINY, *TWO, '--output', str(folder)]) == 0
+    return folder
+
+
+def test_sweep_keeps_a_file_for_each_run_and_a_summary(finished: Path) -> None:
+    """Two settings and two seeds are four files, and two rows that say both runs."""
+    assert len(results(finished)) == 4
+    summary = json.loads((finished / 'summary.json').read_text())
+    assert [row['runs'] for row in summary] == [2, 2]
+    assert summary[0]['setting'] == {'sensor.detection_probability': 0.7}
+    assert (finished / summary[0]['worst'][0]['file']).exists()
+
+
+def test_sweep_does_again_what_is_half_or_not_its_own(finished: Path) -> None:
+    """A file cut short, an empty one and that of another task are not believed; others are."""
+    before = results(finished)
+    cut, empty, other, whole = sorted(before)
+    runs = finished / 'runs'
+    (runs / cut).write_bytes(before[cut][:-40])
+    (runs / empty).write_bytes(b'')
+    (runs / other).write_bytes(before[whole])
+    age = (runs / whole).stat().st_mtime_ns
+    assert main([*TINY, *TWO, '--output', str(finished)]) == 0
+    assert results(finished) == before
+    assert (runs / whole).stat().st_mtime_ns == age
+
+
+def test_sweep_goes_on_with_more_runs(
+    finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another seed is one run for each setting; what was there is not done again."""
+    for name, data in results(finished).items():
+        Store(tmp_path).folder.joinpath('runs', name).write_bytes(data)
+    done = []
+
+    def write(self: Store, task: object, text: str) -> None:
+        done.append(task.seed)  # type: ignore[attr-defined]
+        keep(self, task, text)
+
+    keep: Callable[..., None] = Store.write
+    monkeypatch.setattr(Store, 'write', write)
+    assert main([*TINY, *TWO, '--runs', '3', '--output', str(tmp_path)]) == 0
+    assert done == [3, 3]
+
+
+def test_sweep_takes_recordings(
+    cut_bag: Callable[[int], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A bag with truth is run once a setting, whatever the number of runs."""
+    given = [str(cut_bag(6)), '--jobs', '1', '--quiet', '--runs', '5', '--output', str(tmp_path)]
+    assert main([*given, '--picture', str(tmp_path / 'sweep.png')]) == 0
+    assert len(results(tmp_path)) == 1
+    assert (tmp_path / 'sweep.png').stat().st_size > 5000
+    assert 'as it is' in capsys.readouterr().out
+
+
+def test_evaluate_with_runs_is_a_sweep_without_settings(tmp_path: Path) -> None:
+    """Many runs of a scenario, one row."""
+    assert evaluate([*TINY, '--runs', '2', '--output', str(tmp_path)]) == 0
+    assert len(json.loads((tmp_path / 'summary.json').read_text())) == 1
+
+
+@pytest.mark.parametrize(
+    ('given', 'why'),
+    [
+        (['crosing'], "did you mean 'crossing'"),
+        (['crossing', '--set', 'asociation=jpda'], 'did you mean association'),
+        (['crossing', '--set', 'association=jpda,none'], 'must be one of'),
+        (['crossing', '--set', 'association'], 'name=value'),
+    ],
+)
+def test_sweep_refuses_before_the_first_run(
+    given: list[str], why: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What cannot work is said at once, and no folder is made."""
+    with pytest.raises(SystemExit, match='2'):
+        main([*given, '--output', str(tmp_path / 'none')])
+    assert why in capsys.readouterr().err
+    assert not (tmp_path / 'none').exists()
+
+
+def test_sweep_names_the_run_that_failed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The first result is kept, and the message says which run went wrong."""
+    from tracking_tools.sweeping import crew  # noqa: PLC0415 (patched here only)
+
+    def work(task: Task) -> str:
+        if task.seed == 2:
+            raise ValueError('no plots')
+        return '{}'
+
+    monkeypatch.setattr(crew, 'work', work)
+    assert main([*TINY, *TWO, '--output', str(tmp_path)]) == 1
+    assert (
+        'crossing, seed 2, sensor.detection_probability=0.7: ValueError: no plots'
+        in capsys.readouterr().err
+    )
+    assert len(results(tmp_path)) == 1
+
+
+def test_settings_of_are_all_combinations() -> None:
+    """The last parameter changes fastest, and a list in brackets is one value."""
+    swept = swept_values(['a=1,2', 'b=[0.5,1.0],[2.0,3.0]'])
+    assert [(s['a'], s['b'][0]) for s in settings_of(swept)] == [
+        (1, 0.5), (1, 2.0), (2, 0.5), (2, 2.0),
+    ]  # fmt: skip
+
+
+def test_mean_of_covers_the_truth_as_often_as_it_says() -> None:
+    """The 95 % interval of five runs holds the true mean in 95 % of 2000 trials."""
+    values = np.random.default_rng(1).normal(3.0, 2.0, (2000, 5))
+    means = [mean_of(row.tolist()) for row in values]
+    share = np.mean([abs(m.mean - 3.0) <= m.half for m in means])
+    assert share == pytest.approx(0.95, abs=0.015)  # three standard errors
+
+
+def test_mean_of_leaves_out_what_is_not_known() -> None:
+    """NaN does not count, and a single run has no interval."""
+    assert mean_of([2.0, math.nan]).runs == 1
+    assert str(mean_of([2.0, math.nan])) == '2'
+    assert str(mean_of([math.nan])) == 'none'
+
+
+def test_worst_are_the_runs_with_the_largest_gospa() -> None:
+    """The losing runs come first; one whose figure is not known comes last."""
+    runs = [{'sensor': 'radar', 'gospa': {'mean': value}} for value in (3.0, None, 9.0, 5.0)]
+    case = Case({}, [], runs)
+    assert case.worst() == [2, 3, 0]
+    assert SHOWN['gospa'].of(runs[2]) == 9.0

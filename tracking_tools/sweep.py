@@ -1,0 +1,181 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How good are the tracks over many runs and settings? The command."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Sequence
+from contextlib import closing, contextmanager
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+import signal
+import sys
+from typing import Any
+
+from tqdm import tqdm
+
+from tracking_tools.evaluation.options import add_yardstick, yardstick_of
+from tracking_tools.parameter_file import configure, read_parameter_file
+from tracking_tools.sensors import SENSORS
+from tracking_tools.sweeping.crew import cores, Crew, crew_of, SweepFailed
+from tracking_tools.sweeping.figures import SHOWN
+from tracking_tools.sweeping.store import Figures, Store, write_whole
+from tracking_tools.sweeping.table import Case, cases_of, to_json, to_text
+from tracking_tools.sweeping.tasks import (
+    settings_of,
+    source_of,
+    swept_values,
+    Task,
+    tasks_of,
+    Values,
+)
+
+STOPPED = 130
+Planned = list[tuple[Values, Task]]
+
+
+def sweep(planned: Planned, store: Store, crew: Crew, quiet: bool = False) -> list[Case]:
+    """
+    Do what is not done yet, and return all runs of every setting.
+
+    Parameters
+    ----------
+    planned : list of (setting, task)
+        What is wanted.
+    store : Store
+        What is there; every run is kept as soon as it is done.
+    crew : callable
+        Who works.
+    quiet : bool
+        Without progress.
+
+    Raises
+    ------
+    SweepFailed
+        When a run cannot be done; those done are kept.
+
+    """
+    found = {task.key: store.read(task) for _, task in planned}
+    todo = [task for _, task in planned if found[task.key] is None]
+    bar = tqdm(
+        total=len(planned), initial=len(planned) - len(todo), desc='sweep', unit='run',
+        disable=quiet or None,
+    )  # fmt: skip
+    with bar, closing(crew(todo)) as done:
+        for task, text in done:
+            store.write(task, text)
+            bar.update()
+    return cases_of([(setting, task, _whole(store, task)) for setting, task in planned])
+
+
+def _whole(store: Store, task: Task) -> Figures:
+    figures = store.read(task)
+    if figures is None:
+        raise SweepFailed(f'{store.path(task)} was taken away or changed while the sweep ran')
+    return figures
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = _parser()
+    chosen = parser.parse_args(arguments)
+    try:
+        planned = _plan(chosen)
+        store = Store(chosen.output)
+    except (ValueError, OSError) as error:
+        parser.error(str(error))
+    try:
+        with _terminate_as_interrupt():
+            crew = crew_of(chosen.jobs, chosen.dask)
+            cases = sweep(planned, store, crew, chosen.quiet)
+    except KeyboardInterrupt:
+        done = sum(store.read(task) is not None for _, task in planned)
+        print(f'sweep: stopped; {done} of {len(planned)} runs are kept in {chosen.output}, the '
+              'same command goes on', file=sys.stderr)  # fmt: skip
+        return STOPPED
+    except (SweepFailed, OSError) as error:
+        print(f'sweep: {error}', file=sys.stderr)
+        return 1
+    _report(cases, chosen)
+    return 0
+
+
+def _report(cases: list[Case], chosen: argparse.Namespace) -> None:
+    text = to_text(cases)
+    write_whole(chosen.output / 'summary.json', to_json(cases))
+    write_whole(chosen.output / 'summary.txt', text + '\n')
+    if chosen.picture is not None:
+        pictures = import_module('tracking_tools.sweeping.picture')  # matplotlib takes long
+        pictures.draw_sweep(cases, chosen.picture, chosen.figure)
+    print(text)
+
+
+def _plan(chosen: argparse.Namespace) -> Planned:
+    """Return all runs; refuse what cannot work before the first of them."""
+    sensor = SENSORS[chosen.sensor]
+    fixed: dict[str, Any] = {}
+    if chosen.params is not None:
+        fixed = read_parameter_file(chosen.params, f'/{sensor.node}')
+    given = swept_values(chosen.set)
+    fixed |= {name: values[0] for name, values in given.items() if len(values) == 1}
+    settings = settings_of({name: v for name, v in given.items() if len(v) != 1})
+    for setting in settings:
+        configure(sensor.configs, {**fixed, **setting})
+    sources = [source_of(name, chosen.duration) for name in chosen.sources]
+    yardstick = yardstick_of(chosen, chosen.sensor)
+    return list(
+        tasks_of(sources, chosen.runs, settings, fixed, chosen.sensor, yardstick, _version())
+    )
+
+
+def _version() -> str:
+    try:
+        return version('contact_tracking')
+    except PackageNotFoundError:
+        return 'unknown'
+
+
+@contextmanager
+def _terminate_as_interrupt() -> Iterator[None]:
+    """Let SIGTERM stop the sweep as Ctrl-C does: no process is left behind."""
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='sweep', description='Track scenarios or recordings with many settings; judge them.'
+    )
+    add = parser.add_argument
+    add(
+        'sources',
+        nargs='+',
+        metavar='SCENARIO|BAG',
+        help='names as of simulate, or bags with truth',
+    )
+    add('--set', action='append', default=[], metavar='NAME=V1,V2', help='values of a parameter')
+    add('--runs', type=int, default=1, metavar='N', help='of each scenario, seeds 1 to N')
+    add('--output', type=Path, required=True, metavar='DIR', help='kept, and gone on with')
+    add('--sensor', choices=SENSORS, default='radar', help='default radar')
+    add('--params', type=Path, metavar='FILE', help='parameter file in ROS form (YAML)')
+    add('--duration', type=float, metavar='S', help='of the scenarios [s]')
+    add('--jobs', type=int, default=cores(), metavar='N', help='processes; default: all cores')
+    add('--dask', metavar='ADDRESS', help='of a Dask scheduler whose workers do it instead')
+    add('--picture', type=Path, metavar='PNG', help='draw a figure over the first parameter')
+    add('--figure', choices=SHOWN, default='gospa', help='which, default gospa')
+    add('--quiet', action='store_true', help='no progress')
+    add_yardstick(parser)
+    return parser
+
+
+if __name__ == '__main__':
+    sys.exit(main())
