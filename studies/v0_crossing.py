@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
 import math
 from typing import Any
 
@@ -19,16 +18,11 @@ import numpy as np
 
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
-from tracking_core.batches import Bearings, Floats, Ints
+from studies.v0_scenes import DEGREE, marks, truth
+from tracking_core.batches import Floats, Ints
 from tracking_core.config import with_values
 from tracking_core.linalg import wrap_angle
-from tracking_core.platform import Platform
-from tracking_tools.scenarios.legs import Leg, Legs
-from tracking_tools.scenarios.listening import Watch
-from tracking_tools.scenarios.passes import Contact
-from tracking_tools.scenarios.watches import v0
 
-DEGREE = np.pi / 180.0
 SEED = 20190300
 NEAR = 1.0 * DEGREE  # a track further off follows something else
 RESOLUTION = 2.1 * DEGREE  # at broadside: two marks of this array become one below
@@ -64,22 +58,6 @@ OURS: Values = {
 }
 
 
-def scene(name: str) -> Watch:
-    """Return the scene: 'nominal', 'fluct', or 'manoeuvre' (the weaker turns while merged)."""
-    nominal = v0()
-    if name == 'fluct':
-        array = replace(nominal.array, height=39.0, fluctuation=4.0)
-        return replace(nominal, array=array, levels=(0.0, -2.0))
-    if name == 'manoeuvre':
-        weaker = nominal.contacts[1].trajectory
-        if not isinstance(weaker, Legs):
-            raise TypeError('the contacts of v0 must be on legs')
-        turn = (Leg(1250.0), Leg(40.0, turn_rate=0.5 * DEGREE))
-        return replace(nominal, contacts=(nominal.contacts[0],
-                                          Contact(2, replace(weaker, legs=turn))))  # fmt: skip
-    return nominal
-
-
 @dataclass(frozen=True)
 class Run:
     """One run: which confirmed track was on which contact."""
@@ -89,46 +67,6 @@ class Run:
     sd: float  # median computed sd of the tracks in the second half [rad]
     false: int  # confirmed tracks that were never near a contact
     record: tuple[Floats, Floats, Ints] | None = None  # time, bearing, id of all rows
-
-
-@lru_cache(maxsize=8)
-def truth(name: str) -> tuple[Floats, Floats, Platform]:
-    """Return time (K,), true bearings (K, C) in tracking axes, and own ship."""
-    watch = scene(name)
-    time = watch.times
-    own, velocity = watch.own.at(time)
-    paths = np.stack([contact.trajectory.at(time)[0] for contact in watch.contacts], axis=1)
-    line = paths - own[:, None]
-    yaw = 0.5 * np.arctan2(velocity[:, 1], velocity[:, 0])
-    zero = np.zeros_like(time)
-    platform = Platform(
-        time, own, np.stack([zero, zero, np.sin(yaw), np.cos(yaw)], axis=1), velocity,
-        np.zeros((len(time), 3, 3)), zero, capacity=len(time) + 1,
-    )  # fmt: skip
-    return time, np.arctan2(line[..., 1], line[..., 0]), platform
-
-
-def marks(name: str, seed: int, end: float, mark_sd: float = 0.0) -> list[Bearings]:
-    """Return the marks of each cycle until `end` [s]; `mark_sd` above 0 replaces the array's."""
-    watch, rng = scene(name), np.random.default_rng(seed)
-    time, bearing, platform = truth(name)
-    own, _ = watch.own.at(time)
-    far = np.stack([c.trajectory.at(time)[0] for c in watch.contacts], axis=1) - own[:, None]
-    used = time < end
-    angle = watch.array.from_axis(bearing - platform.at(time).yaw[:, None])[used]
-    distance = np.hypot(far[..., 0], far[..., 1])[used]
-    height = watch.array.heights(distance, np.array(watch.levels), rng)
-    cycle, found, snr = watch.array.marks(watch.array.listen(angle, height, rng))
-    sd = watch.array.reported_sd(found, snr)
-    sd = np.full_like(sd, mark_sd) if mark_sd > 0.0 else sd
-    ends = np.searchsorted(cycle, np.arange(int(used.sum()) + 1))
-    return [
-        Bearings(
-            np.full(last - first, now), watch.array.side * found[first:last], sd[first:last],
-            10.0 * np.log10(snr[first:last]), float(now),
-        )
-        for now, first, last in zip(time[used], ends[:-1], ends[1:], strict=True)
-    ]  # fmt: skip
 
 
 def run(name: str, seed: int, values: Mapping[str, Any], end: float = np.inf, mark_sd: float = 0.0,

@@ -8,10 +8,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from studies.v0_crossing import DEGREE, kept, Run, segments
+from studies.v0_crossing import kept, Run, segments
+from studies.v0_scenes import DEGREE
 from tracking_core.batches import Ints
 
-BEFORE, AFTER = 450, 920  # cycles at 900 s and at 1840 s
+BEFORE, AFTER = 450, -5  # cycles: 900 s after the start, 10 s before the end
 SETTLED = 50  # cycles after which errors count
 
 

@@ -10,8 +10,9 @@ import pytest
 
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
-from studies.v0_crossing import kept, OURS, PAPER, RESOLUTION, run, SEED, truth
+from studies.v0_crossing import kept, OURS, PAPER, RESOLUTION, run, SEED
 from studies.v0_figures import AFTER, BEFORE
+from studies.v0_scenes import truth
 from tracking_core.batches import Bearings
 from tracking_core.config import with_values
 from tracking_core.linalg import wrap_angle

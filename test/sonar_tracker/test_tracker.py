@@ -237,6 +237,28 @@ def test_coverage_of_the_array_is_not_a_miss() -> None:
     assert len(tracker.tracks) == 0
 
 
+@pytest.mark.parametrize('estimator', ['kalman', 'modified_polar'])
+def test_second_mode_notices_a_turn_and_follows_it(estimator: str) -> None:
+    """The mode of a turn wins in the turn and only there; with a quiet mode alone it is lost."""
+    time = PERIOD * np.arange(CYCLES)
+    rate = 0.2 * DEGREE * ((time >= 120.0) & (time < 160.0))
+    truth = (PERIOD * np.cumsum(rate))[:, None]
+    messages = cycles(truth, false_marks=0.0)
+    quiet = {'estimator': estimator, 'motion__bearing_noise': [1e-5], 'motion__rate_noise': [1e-6]}
+    both = {
+        'estimator': estimator, 'motion__bearing_noise': [1e-5, 1e-5],
+        'motion__rate_noise': [1e-6, 1e-3], 'motion__sojourn_time': [600.0, 60.0],
+    }  # fmt: skip
+    trackers = [followed(messages[:looks], **both)[0] for looks in (60, 72, CYCLES)]
+    turning = [tracker.tracks.planes[0].mode_probability[0, 1] for tracker in trackers]
+    assert turning[0] < 0.2
+    assert turning[1] > 0.5
+    assert turning[2] < 0.2
+    first = int(trackers[0].tracks.id[0])
+    assert first in ids_near(followed(messages, **both)[1], truth)[0]
+    assert first not in followed(messages, **quiet)[1][-1][0]
+
+
 @pytest.mark.parametrize(
     ('values', 'words'),
     [

@@ -30,7 +30,7 @@ def test_beams_are_even_in_the_cosine() -> None:
 def test_noise_has_unit_variance_and_the_covariance_of_the_pattern() -> None:
     """Over many cycles, within sampling error."""
     nobody = np.zeros((20_000, 0))
-    output = ARRAY.listen(nobody, nobody, np.random.default_rng(1))
+    output = ARRAY.listen(ARRAY.lobes(nobody), nobody, np.random.default_rng(1))
     assert_allclose(output.var(axis=0).mean(), 1.0, atol=0.01)
     beside = (output[:, 1:] * output[:, :-1]).mean()
     step = np.array(ARRAY.beam_width / 5.0)
@@ -40,14 +40,15 @@ def test_noise_has_unit_variance_and_the_covariance_of_the_pattern() -> None:
 def test_false_marks_are_as_rare_as_said() -> None:
     """About 0.0015 per degree and cycle."""
     nobody = np.zeros((5_000, 0))
-    cycle, _, _ = ARRAY.marks(ARRAY.listen(nobody, nobody, np.random.default_rng(2)))
+    cycle, _, _ = ARRAY.marks(ARRAY.listen(ARRAY.lobes(nobody), nobody, np.random.default_rng(2)))
     assert len(cycle) / 5_000 / 160.0 == pytest.approx(0.0015, abs=0.0003)
 
 
 def test_marks_of_one_contact_have_about_the_reported_sd() -> None:
     """Unbiased, and within a factor of two of what the array reports."""
     bearing, height = np.full((4000, 1), 1.2), np.full((4000, 1), 30.0)
-    cycle, found, snr = ARRAY.marks(ARRAY.listen(bearing, height, np.random.default_rng(3)))
+    output = ARRAY.listen(ARRAY.lobes(bearing), height, np.random.default_rng(3))
+    cycle, found, snr = ARRAY.marks(output)
     mine = np.abs(found - 1.2) < 2.0 * DEGREE
     assert mine.sum() == 4000
     error, told = found[mine] - 1.2, ARRAY.reported_sd(found[mine], snr[mine])
@@ -61,7 +62,8 @@ def test_marks_merge_below_some_two_degrees(apart: float, two: float) -> None:
     """Two contacts at broadside, 45 and 18 high: two marks at 3 degrees, one at 1.5."""
     bearing = np.tile([0.5 * np.pi, 0.5 * np.pi + apart * DEGREE], (2000, 1))
     height = np.tile([45.0, 18.0], (2000, 1))
-    cycle, found, _ = ARRAY.marks(ARRAY.listen(bearing, height, np.random.default_rng(4)))
+    output = ARRAY.listen(ARRAY.lobes(bearing), height, np.random.default_rng(4))
+    cycle, found, _ = ARRAY.marks(output)
     near = np.abs(found - bearing[0].mean()) < 4.0 * DEGREE
     count = np.bincount(cycle[near], minlength=2000)
     assert (count >= 2).mean() == pytest.approx(two, abs=0.1)

@@ -68,14 +68,19 @@ class LinearArray:
         values, vectors = np.linalg.eigh(self.pattern(apart))
         return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0)))
 
-    def listen(self, bearing: Floats, height: Floats, rng: np.random.Generator) -> Floats:
+    def lobes(self, bearing: Floats) -> Floats:
+        """Return what contacts at bearings (K, C) of height 1 give in the beams (C, K, B)."""
+        offset = self.cosines[None, None] - np.cos(bearing.T)[..., None]
+        return np.stack([self.pattern(one) for one in offset]) if len(offset) else offset
+
+    def listen(self, lobes: Floats, height: Floats, rng: np.random.Generator) -> Floats:
         """
         Return the outputs of all beams.
 
         Parameters
         ----------
-        bearing : (K, C) array
-            Of C contacts in K cycles [rad].
+        lobes : (C, K, B) array
+            Of C contacts in K cycles, see `lobes`.
         height : (K, C) array
             Of their peaks.
         rng : Generator
@@ -86,10 +91,9 @@ class LinearArray:
         (K, B) array
 
         """
-        output = rng.standard_normal((len(bearing), len(self.cosines))) @ self._mixing.T
-        for column in range(bearing.shape[1]):  # contacts: few
-            offset = self.cosines[None] - np.cos(bearing[:, column])[:, None]
-            output += height[:, column, None] * self.pattern(offset)
+        output = rng.standard_normal((len(height), len(self.cosines))) @ self._mixing.T
+        for column, lobe in enumerate(lobes):  # contacts: few
+            output += height[:, column, None] * lobe
         return output
 
     def heights(self, distance: Floats, level: Floats, rng: np.random.Generator) -> Floats:

@@ -58,7 +58,7 @@ def listen(watch: Watch, types: MessageTypes, epoch: float = EPOCH) -> Iterator[
     line = np.stack([position - place for position, _ in states], axis=1)  # (K, C, 3)
     bearing = array.from_axis(np.arctan2(line[..., 1], line[..., 0]) - course[:, None])
     heights = array.heights(np.hypot(line[..., 0], line[..., 1]), np.array(watch.levels), rng)
-    output = array.listen(bearing, heights * _is_there(watch), rng)
+    output = array.listen(array.lobes(bearing), heights * _is_there(watch), rng)
     marks = _marks(array, output)
     for k, now in enumerate(time):
         header = types.header(epoch + now, MAP)
