@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +29,7 @@ class Record:
     distance: Floats  # (N,) [m]
     near: float  # a track within this angle is on the contact [rad]
     reach: float  # contacts beyond are not asked for [m]
+    source: list[Ints] = field(default_factory=list)  # by cycle: contact of each mark, -1: none
 
 
 def vessels(folder: Path, name: str) -> Record:
@@ -40,6 +41,7 @@ def vessels(folder: Path, name: str) -> Record:
         name, cycles_of(time, d['meas_scan'], _to_enu(d['meas_bearing'])), own_ship(time, own),
         d['true_scan'].astype(np.int64), d['true_contact'].astype(np.int64),
         _to_enu(d['true_bearing']), d['true_range'].astype(float), 3.0 * DEGREE, 8000.0,
+        by_cycle(len(time), d['meas_scan'], d['meas_contact'].astype(np.int64)),
     )  # fmt: skip
 
 
@@ -78,6 +80,11 @@ def cycles_of(time: Floats, scan: Ints, bearing: Floats) -> list[Bearings]:
         )
         for now, first, last in zip(time, ends[:-1], ends[1:], strict=True)
     ]  # fmt: skip
+
+
+def by_cycle(cycles: int, scan: Ints, source: Ints) -> list[Ints]:
+    """Return the sources of the marks (M,) of each cycle."""
+    return np.split(source, np.searchsorted(scan, np.arange(1, cycles)))
 
 
 def own_ship(time: Floats, own: Floats) -> Platform:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.sonar_recordings import cycles_of, DEGREE, own_ship, Record
+from benchmarks.sonar_recordings import by_cycle, cycles_of, DEGREE, own_ship, Record
 from tracking_core.batches import Floats
 from tracking_core.linalg import wrap_angle
 from tracking_tools.scenarios.legs import Leg, Legs
@@ -89,14 +89,16 @@ def _heard(
     chance = np.interp(distance, [LOUD, FAINT], [0.9, 0.6]) * (distance < SILENT)
     heard = rng.random(distance.shape) < chance
     noisy = wrap_angle(bearing + BEARING_SD * rng.standard_normal(bearing.shape))
-    scan, mark = np.nonzero(heard)[0], noisy[heard]
+    (scan, source), mark = np.nonzero(heard), noisy[heard]
     false = np.repeat(np.arange(len(time)), rng.poisson(FALSE_MARKS, len(time)))
     scan = np.concatenate([scan, false])
     mark = np.concatenate([mark, rng.uniform(-np.pi, np.pi, len(false))])
+    source = np.concatenate([source, np.full(len(false), -1)])
     order = rng.permutation(len(scan))  # marks of a cycle come in no order
     order = order[np.argsort(scan[order], kind='stable')]
     row, contact = np.nonzero(distance < SILENT)
     return Record(
         name, cycles_of(time, scan[order], mark[order]), own_ship(time, own), row, contact,
         bearing[row, contact], distance[row, contact], 3.0 * DEGREE, 8000.0,
+        by_cycle(len(time), scan[order], source[order]),
     )  # fmt: skip
