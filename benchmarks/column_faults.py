@@ -94,7 +94,7 @@ def _repeat(columns: Columns, rng: Rng) -> Columns:
 
 
 def _shuffle(columns: Columns, rng: Rng) -> Columns:
-    return {name: rng.permutation(values) for name, values in columns.items()}
+    return {name: values[rng.permutation(len(values))] for name, values in columns.items()}
 
 
 OF_COLUMNS: tuple[Callable[[Columns, Rng], Columns], ...] = (

@@ -120,11 +120,11 @@ def _nanoseconds(cloud: Cloud, rng: Rng) -> Cloud:
 
 def _shift(cloud: Cloud, rng: Rng) -> Cloud:
     """
-    Return the message in the past or in the future, by milliseconds to years.
+    Return the message in the past or in the future, by minutes to years.
 
-    Not in the next minute: such a stamp is believed, and tells where contacts will be.
+    A stamp less than a minute off can be believed, and then tells where contacts were or will be.
     """
-    by = 10.0 ** rng.uniform(2.0, 8.0) if rng.random() < 0.5 else -(10.0 ** rng.uniform(-3.0, 8.0))
+    by = float(rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(2.0, 8.0))
     return replace(cloud, sec=int(np.clip(cloud.sec + int(by), -(2**31), 2**31 - 1)))
 
 

@@ -10,9 +10,10 @@ the platform's odometry, everything else is refused with both names and the ways
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from msg_adapters.bad_message import BadMessage, shown
+from msg_adapters.newcomer import AGREEING, Newcomer
 
 WAYS_OUT = (
     'give the odometry of the platform on the topic ownship, or say with sensor.mount.* where the '
@@ -43,6 +44,7 @@ class TrackingFrame:
     sensor: str | None = None  # frame of the plots, from the first message
     moving: bool = False  # own ship is known
     learnt: bool = False  # the name came from a message
+    newcomer: Newcomer = field(default_factory=Newcomer)
 
     @property
     def needs_platform(self) -> bool:
@@ -73,9 +75,12 @@ class TrackingFrame:
                 f"header.frame_id is '{frame}', expected '{self.sensor or self.name}': {ways}",
             )
 
-    def check_ownship(self, frame: str) -> bool:
+    def check_ownship(self, frame: str, time: float) -> bool:
         """
-        Accept odometry in this frame, or raise BadMessage.
+        Accept odometry in this frame and of this time [s], or raise BadMessage.
+
+        Where a sensor has been tracked with that stands still, one odometry is not believed: it
+        would end all tracks.
 
         Returns
         -------
@@ -83,6 +88,12 @@ class TrackingFrame:
             Whether tracking must start anew, because the sensor was taken to stand still.
 
         """
+        stands_still = self.sensor is not None and not self.moving
+        if stands_still and not self.newcomer.is_believed(frame, time):
+            raise BadMessage(
+                'not believed yet',
+                f"own ship in frame '{frame}' is new, believed from message {AGREEING} on",
+            )
         anew = False
         if not self.name or (self.learnt and not self.moving and frame != self.name):
             anew = self.sensor is not None

@@ -167,7 +167,8 @@ class Session:
         """Take one odometry of the platform."""
         try:
             sample = to_platform(msg)
-            appeared = self.frame.check_ownship(msg.header.frame_id.lstrip('/'))
+            frame, time = msg.header.frame_id.lstrip('/'), float(sample.time[0])
+            appeared = self.frame.check_ownship(frame, time)
             if self.whereabouts.take(sample, received) or appeared:
                 self._start_anew('own ship appeared' if appeared else 'own ship is elsewhere')
         except BadMessage as error:

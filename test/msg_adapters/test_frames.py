@@ -27,7 +27,7 @@ def test_stationary_sensor_gives_its_frame_and_says_so_once(said):
 def test_data_in_the_tracking_frame_are_used_as_they_are(said):
     """Also when own ship is known."""
     frame = TrackingFrame('map', False, said.append)
-    frame.check_ownship('map')
+    frame.check_ownship('map', 0.0)
     frame.check_plots('map')
     assert not frame.needs_platform
     assert said == []
@@ -51,24 +51,43 @@ def test_plots_may_not_change_their_frame(said):
 def test_own_ship_names_the_tracking_frame(said):
     """A sensor on a platform is tracked in the frame of the odometry."""
     frame = TrackingFrame('', False, said.append)
-    assert not frame.check_ownship('odom')
+    assert not frame.check_ownship('odom', 0.0)
     frame.check_plots('radar')
     assert frame.name == 'odom'
     assert frame.needs_platform
     with pytest.raises(BadMessage, match="'map', the tracking frame is 'odom'"):
-        frame.check_ownship('map')
+        frame.check_ownship('map', 0.0)
 
 
 def test_own_ship_that_comes_late_starts_anew_in_its_frame(said):
     """What was taken to stand still moves after all: said, and begun anew once."""
     frame = TrackingFrame('', False, said.append)
     frame.check_plots('radar')
-    assert frame.check_ownship('odom')
-    assert not frame.check_ownship('odom')
+    for time in (0.0, 0.1):
+        with pytest.raises(BadMessage, match='believed from message 3'):
+            frame.check_ownship('odom', time)
+    assert frame.check_ownship('odom', 0.2)
+    assert not frame.check_ownship('odom', 0.3)
     frame.check_plots('radar')
     assert frame.name == 'odom'
     assert frame.needs_platform
     assert len(said) == 2
+
+
+@pytest.mark.parametrize('messages', [
+    [('odom', 1.0)] * 9,
+    [('odom', 1.0), ('map', 2.0)] * 5,
+    [('odom', 5.0), ('odom', 4.0), ('odom', 3.0), ('odom', 90.0), ('odom', 9.0)],
+])  # fmt: skip
+def test_own_ship_that_contradicts_itself_is_not_believed(said, messages):
+    """Stray messages of one time, of several frames or of any times leave a sensor as it is."""
+    frame = TrackingFrame('', False, said.append)
+    frame.check_plots('radar')
+    for name, time in messages:
+        with pytest.raises(BadMessage, match='is new'):
+            frame.check_ownship(name, time)
+    assert frame.name == 'radar'
+    assert not frame.moving
 
 
 def test_mount_brings_a_stationary_sensor_into_the_tracking_frame(said):

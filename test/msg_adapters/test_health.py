@@ -34,7 +34,7 @@ def test_level_says_for_how_long_own_ship_is_silent_where_it_is_needed(session):
     """A sensor that stands still has none; one that moves cannot do without."""
     health = Health(started=0.0, plots_at=99.0, ownship_at=85.0)
     assert health.level(session, 100.0) == ('OK', 'tracking')
-    session.frame.check_ownship('odom')
+    session.frame.check_ownship('odom', 0.0)
     session.frame.check_plots('radar')
     assert health.level(session, 100.0) == ('WARN', 'no ownship for 15 s')
     health.ownship_at = 93.0

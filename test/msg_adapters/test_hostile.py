@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whatever comes on an input is used or refused, and a track that is fed stays."""
 
+from collections import Counter
 from types import SimpleNamespace
 import warnings
 
@@ -21,9 +22,9 @@ from sonar_tracker.config import SensorConfig as SonarSensorConfig
 pytest.importorskip('rosbags')
 from benchmarks.healthy_scenes import contacts, HEALTHY, marks, START
 from benchmarks.hostile_messages import spoil
-from benchmarks.siege import besiege, Siege, TYPES
+from benchmarks.siege import besiege, resident, Siege, TYPES
 
-SHORT, LONG = 200, 500_000
+SHORT, LONG, MILLION = 200, 500_000, 1_000_000
 ROWS = 20_000
 GROWTH = 1.02  # of memory from a tenth of the way to the end: caches of Python and numpy
 anything = st.floats(allow_nan=True, allow_infinity=True, width=64)
@@ -73,6 +74,26 @@ def test_spoilt_message_is_read_or_refused(types, seed):
             continue
         assert np.isfinite(plots.time).all()
         assert (np.abs(plots.time - plots.stamp) <= 60.0).all()
+
+
+@pytest.mark.soak
+def test_adapters_stand_a_million_messages():
+    """Each is rows of sound numbers or BadMessage; memory stays what it was after a tenth."""
+    rng, memory, ends = np.random.default_rng(1), [], Counter()
+    readers = ((contacts, to_plots, SensorConfig()), (marks, to_bearings, SonarSensorConfig()))
+    for number in range(MILLION):
+        if number % (MILLION // 10) == 0:
+            memory.append(resident())
+        make, read, sensor = readers[number % 2]
+        msg = spoil(make(START), START, 'here', rng).to_message(TYPES)
+        try:
+            plots = read(msg, sensor, ROWS).plots
+            assert np.isfinite(plots.time).all()
+            ends['read'] += 1
+        except BadMessage as error:
+            ends[error.reason] += 1
+    print(f'\n{MILLION} messages: {dict(ends)}, memory [MB] {memory}')
+    assert resident() <= GROWTH * memory[1]
 
 
 @quick

@@ -1,0 +1,137 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""A live node stands hostile messages on all its topics, also such as no publisher could send."""
+
+from collections import Counter
+from pathlib import Path
+
+from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import Odometry
+import numpy as np
+import pytest
+from rclpy.serialization import serialize_message
+from std_msgs.msg import UInt32
+
+from benchmarks.hostile_messages import spoil
+from msg_adapters.message_types import rclpy_types
+from msg_adapters.table import to_columns
+from tracking_tools.testing import confirmed_ids
+
+SHORT, LONG = 100, 10_000  # messages
+EXTREMES = (b'\xff\xff\xff\xff', b'\xff\xff\xff\x7f', b'\0\0\1\0')
+OTHERS = {'ownship': Odometry, 'acquire': PointStamped, 'cancel': UInt32}
+STEP, AGAIN = 2.0, 1.0  # s of stamps between healthy scans; before the next one if unanswered
+GROWTH = 1.03  # of memory after the first tenth: log lines, buffers of the transport
+
+
+@pytest.fixture(params=['radar', 'sonar'])
+def sensor(request):
+    """Test both nodes."""
+    return request.getfixturevalue(request.param)
+
+
+def damage(data, rng):
+    """Return a serialised message cut, flipped, with a huge number in it, or any bytes."""
+    spoilt = bytearray(data)
+    kind, place = rng.integers(4), int(rng.integers(0, len(data)))
+    if kind == 0:
+        return bytes(spoilt[:place])
+    if kind == 1:
+        for flipped in rng.integers(0, len(data), 3):
+            spoilt[flipped] ^= int(rng.integers(1, 256))
+    elif kind == 2:
+        spoilt[place // 4 * 4 : place // 4 * 4 + 4] = EXTREMES[rng.integers(len(EXTREMES))]
+    else:
+        return rng.bytes(int(rng.integers(4, 300)))
+    return bytes(spoilt)
+
+
+class Attack:
+    """What is sent to one node, and what is asked of it."""
+
+    def __init__(self, node, probe, seed):
+        self.node, self.probe, self.rng = node, probe, np.random.default_rng(seed)
+        self.others = {name: probe.tell(kind, name) for name, kind in OTHERS.items()}
+        probe.peer.wait_until_matched(*self.others.values())
+        self.kept, self.sent = confirmed_ids(probe.confirmed()), Counter()
+
+    def strike(self):
+        """Send one hostile message: spoilt plots, or damaged bytes on any topic."""
+        probe, rng = self.probe, self.rng
+        columns, stamp = probe.sensor.contacts(probe.stamp + 1.0), probe.stamp + 1.0
+        if rng.random() < 0.7:
+            cloud = spoil(columns, stamp, probe.sensor.frame, rng)
+            return self._publish('plots', probe.plots, cloud.to_message(rclpy_types()))
+        topic = str(rng.choice(['plots', *OTHERS]))
+        msg = OTHERS.get(topic, UInt32)()
+        if topic == 'plots':
+            msg = spoil(columns, stamp, probe.sensor.frame, rng).to_message(rclpy_types())
+        end = self.others.get(topic, probe.plots)
+        return self._publish(f'{topic}, raw', end, damage(serialize_message(msg), rng))
+
+    def _publish(self, name, end, msg):
+        try:
+            end.publish(msg)
+            self.sent[name] += 1
+        except Exception:  # the middleware of the sender refuses some bytes: nothing was sent
+            self.sent['not sent'] += 1
+
+    def feed(self):
+        """Send healthy scans until one is answered; every track that is fed must be there."""
+        probe, heard = self.probe, len(self.probe.tables)
+
+        def scan(_):
+            probe.stamp += STEP
+            probe.send(probe.sensor.contacts(probe.stamp), probe.stamp)
+
+        probe.peer.ask(scan, lambda: probe.is_answered(probe.stamp), 'an answer', AGAIN)
+        assert len(probe.tables) > heard
+        self.node.check()
+        lost = self.kept - self.ids()
+        assert not lost, f'tracks {lost} are lost after {dict(self.sent)}'
+
+    def ids(self):
+        """Return the confirmed tracks of the last table."""
+        return confirmed_ids(to_columns(self.probe.tables[-1], 10_000))
+
+    def memory(self):
+        """Return what the node holds [MB]."""
+        statm = Path(f'/proc/{self.node.process.pid}/statm').read_text()
+        return round(int(statm.split()[1]) * 4096e-6, 1)
+
+    def go_on(self, count):
+        """Strike so often, with two healthy scans after every second blow; return the memory."""
+        memory = []
+        for number in range(count):
+            if number % (count // 10) == 0:
+                memory.append(self.memory())
+                self.probe.tables[:-1] = []
+            self.strike()
+            if number % 2:
+                self.feed()
+                self.feed()
+        return [*memory, self.memory()]
+
+
+def test_node_stands_hostile_messages(start_node, probe):
+    """It answers on, keeps the tracks that are fed, and ends with 0 and no traceback."""
+    node = start_node()
+    probe.meet()
+    Attack(node, probe, 1).go_on(SHORT)
+    node.signal(2)
+    assert node.wait() == 0
+    assert 'Traceback' not in node.log
+
+
+@pytest.mark.soak
+def test_node_stands_many_hostile_messages(start_node, probe, sensor):
+    """The same ten thousand times, and memory stays what it was after the first tenth."""
+    node = start_node()
+    probe.meet()
+    attack = Attack(node, probe, 1)
+    memory = attack.go_on(LONG)
+    print(f'\n{sensor.node}: {dict(attack.sent)}, memory [MB] {memory}')
+    assert memory[-1] <= GROWTH * memory[1]
+    node.signal(2)
+    assert node.wait() == 0
+    assert 'Traceback' not in node.log
