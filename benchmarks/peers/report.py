@@ -13,6 +13,7 @@ from benchmarks.peers.summary import BETTER, Row
 
 WANTED = {'en_route_10': 20, 'en_route_50': 60, 'en_route_200': 100, 'en_route_1000': 150,
           'formations': 60}  # fmt: skip
+KILO = 1e3
 _RIVALS = ('stone_soup', 'stone_soup_tree')  # that the wanted ratios are about
 _WORDS = {'gospa': 'GOSPA', 'held': 'held', 'rmse': 'RMSE', 'switches': 'switches',
           'cpu': 'CPU [ms]'}  # fmt: skip
@@ -28,6 +29,8 @@ class Result:
     unit: str  # of GOSPA and RMSE
     scale: float  # from SI to that unit
     rows: Mapping[str, Row]
+    wanted: int  # runs
+    made: str  # when, on what and with what
 
 
 Results = Mapping[str, Result]
@@ -41,29 +44,33 @@ def table(head: str, lines: list[str]) -> str:
 
 def where_better(results: Results) -> str:
     """Return where another tracker is better than our default."""
-    lines = []
-    for result in results.values():
-        for name, row in sorted(result.rows.items(), key=lambda item: item[0] in VARIANTS):
-            if name == OURS:
-                continue
-            for measure, figure in row.figures.items():
-                if measure in BETTER and figure.is_better(BETTER[measure]):
-                    scale = _scale(measure, result)
-                    own = (figure.mean - figure.margin) * scale
-                    sure = (
-                        'one run' if math.isnan(figure.error) else f'+- {figure.error * scale:.3g}'
-                    )
-                    lines.append(
-                        f'{result.title} | {row.title} | {_WORDS[measure]} '
-                        f'| {figure.mean * scale:.4g} | {own:.4g} '
-                        f'| {figure.margin * scale:+.3g} ({sure})'
-                    )
+    lines = [
+        f'{result.title} | {row.title} | {line}'
+        for result in results.values()
+        for name, row in sorted(result.rows.items(), key=lambda item: item[0] in VARIANTS)
+        if name != OURS
+        for line in (*_better_figures(row, result), *_less_memory(row, result.rows[OURS]))
+    ]
     head = 'scene | tracker | measure | theirs | ours | difference (standard error)'
     return table(head, lines) if lines else 'Nowhere in this run.'
 
 
-def _scale(measure: str, result: Result) -> float:
-    return result.scale if measure in ('gospa', 'rmse') else 1.0
+def _better_figures(row: Row, result: Result) -> Iterator[str]:
+    for measure, figure in row.figures.items():
+        if measure in BETTER and figure.is_better(BETTER[measure]):
+            scale = result.scale if measure in {'gospa', 'rmse'} else 1.0
+            own, error = (figure.mean - figure.margin) * scale, figure.error * scale
+            sure = 'one run' if math.isnan(error) else f'+- {error:.3g}'
+            yield (
+                f'{_WORDS[measure]} | {figure.mean * scale:.4g} | {own:.4g} '
+                f'| {figure.margin * scale:+.3g} ({sure})'
+            )
+
+
+def _less_memory(row: Row, own: Row) -> Iterator[str]:
+    if row.memory is not None and own.memory is not None and row.memory.held < own.memory.held:
+        theirs, ours = row.memory.held / KILO, own.memory.held / KILO
+        yield f'kB a track | {theirs:.1f} | {ours:.1f} | {theirs - ours:+.1f} (one run)'
 
 
 def ratios(results: Results) -> str:
@@ -106,7 +113,7 @@ def scene_table(result: Result) -> str:
 
 
 def _line(row: Row, scale: float) -> str:
-    memory = ('' if row.memory is None else f'{row.memory.held / 1e3:.1f} '
+    memory = ('' if row.memory is None else f'{row.memory.held / KILO:.1f} '
               f'| {row.memory.peak / 1e6:.1f}') or ' | '  # fmt: skip
     if not row.figures:
         return (
@@ -125,9 +132,14 @@ def _line(row: Row, scale: float) -> str:
     )
 
 
+def growing(results: Results) -> list[str]:
+    """Return the names of the scenes that differ in the number of contacts only."""
+    return [name for name in WANTED if name.startswith('en_route') and name in results]
+
+
 def growth(results: Results) -> str:
     """Return the CPU by number of contacts."""
-    sizes = [name for name in WANTED if name.startswith('en_route') and name in results]
+    sizes = growing(results)
     rows: dict[str, list[str]] = {}
     for name in sizes:
         for row in results[name].rows.values():
@@ -143,12 +155,22 @@ def sections(results: Results) -> Iterator[tuple[str, str]]:
     """Yield title and text of each part."""
     yield 'Where another is better than our default', where_better(results)
     yield 'The wanted ratios to Stone Soup', ratios(results)
-    if sum(name.startswith('en_route') for name in results) > 1:
+    if len(growing(results)) > 1:
         yield 'Growth', growth(results)
     for result in results.values():
-        rows = next(iter(result.rows.values()))
-        text = (
-            f'{result.contacts:.0f} contacts and {result.plots:.0f} plots a scan, '
-            f'{rows.wanted} scans, {rows.runs} runs.\n\n{scene_table(result)}'
-        )
-        yield result.title[0].upper() + result.title[1:], text
+        yield result.title[0].upper() + result.title[1:], _scene(result, len(origins(results)) > 1)
+
+
+def _scene(result: Result, is_apart: bool) -> str:
+    row = next(iter(result.rows.values()))
+    runs = f'{row.runs}' if row.runs == result.wanted else f'{row.runs} of {result.wanted}'
+    origin = f' Run of its own: {result.made}.' if is_apart else ''
+    return (
+        f'{result.contacts:.0f} contacts and {result.plots:.0f} plots a scan, '
+        f'{row.wanted} scans, {runs} runs.{origin}\n\n{scene_table(result)}'
+    )
+
+
+def origins(results: Results) -> list[str]:
+    """Return when, on what and with what the results were made, each once."""
+    return list(dict.fromkeys(result.made for result in results.values()))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the comparison with other trackers: ours alone, all that are installed, and its judge."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -33,13 +34,27 @@ def exact(seen: Scene, offset: float = 0.0) -> Lap:
 
 
 def test_main_reports_ours_where_nothing_else_is_asked(tmp_path: Path) -> None:
-    """Our tracker alone gives a page with its figures."""
+    """Our tracker alone gives a page with its figures and their growth, and a picture."""
     page = tmp_path / 'peers.md'
-    few = ['--scans', '12', '--runs', '1', '--output', str(page)]
-    assert main(['--only', 'one_that_turns', 'sonar', '--peers', 'ours', *few]) == 0
+    few = ['--scans', '12', '--runs', '2', '--budget', '0', '--output', str(page)]
+    assert main(['--only', 'en_route_10', 'en_route_50', 'sonar', '--peers', 'ours', *few]) == 0
     text = page.read_text(encoding='utf-8')
-    assert text.count('| contact_tracking, JPDA |') == 2
+    assert text.count('| contact_tracking, JPDA |') == 4
+    assert text.count('12 scans, 1 of 2 runs.') == 3
     assert '{' not in text
+    assert page.with_suffix('.png').stat().st_size > 1000
+
+
+def test_main_says_which_results_are_of_another_run(tmp_path: Path) -> None:
+    """Kept results are on the page, each scene with its own date once dates differ."""
+    few = ['--peers', 'ours', '--scans', '10', '--runs', '1', '--keep', str(tmp_path)]
+    page = tmp_path / 'peers.md'
+    assert main(['--only', 'sonar', *few, '--output', str(page)]) == 0
+    assert 'Run of its own' not in page.read_text(encoding='utf-8')
+    kept = tmp_path / 'sonar.json'
+    kept.write_text(json.dumps(json.loads(kept.read_text()) | {'made': 'long ago'}))
+    assert main(['--only', 'one_that_turns', *few, '--output', str(page)]) == 0
+    assert 'Run of its own: long ago.' in page.read_text(encoding='utf-8')
 
 
 @pytest.mark.parametrize('name', [name for name in ENTRANTS if not name.startswith('ours')])
@@ -86,6 +101,6 @@ def test_where_better_names_the_better_tracker_only() -> None:
         name: compare(name, [seen, seen], [lap, lap], [ours, ours])
         for name, lap in {'ours': ours, 'near': near, 'far': far}.items()
     }
-    text = where_better({'x': Result('x', 2.0, 2.0, 'm', 1.0, rows)})
+    text = where_better({'x': Result('x', 2.0, 2.0, 'm', 1.0, rows, 2, 'today')})
     assert '| near | GOSPA |' in text
     assert 'far' not in text
