@@ -56,7 +56,7 @@ def choose_rows(rows: Plots | Bearings, checks: Iterable[Check]) -> tuple[Bools,
     dropped = {}
     with np.errstate(invalid='ignore', over='ignore'):
         for reason, wrong in (*checks, *_time_checks(rows)):
-            count = int(np.sum(wrong & keep))
+            count = int(np.count_nonzero(wrong & keep))
             if count:
                 dropped[reason] = count
                 keep &= ~wrong

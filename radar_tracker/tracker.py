@@ -154,9 +154,12 @@ class RadarTracker:
             tracker = Tracker(build_setup(self.config, self._radar))
             tracker.reset(self.state.next_id)
             self._tracker, self._is_known = tracker, True
-        flat = np.nan_to_num(plots.position[:, : self.dimensions])
-        distance = plots.range if self._radar.is_polar else np.linalg.norm(flat, axis=1)
-        self._farthest = max(self._farthest, float(distance.max()))
+        if self._radar.is_polar:
+            farthest = plots.range.max()
+        else:
+            square = plots.position[:, : self.dimensions] ** 2
+            farthest = np.sqrt(np.nansum(square, axis=1).max())
+        self._farthest = max(self._farthest, float(farthest))
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:
         """Open the gates for what own ship does not know of itself."""

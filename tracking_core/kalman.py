@@ -113,12 +113,12 @@ def condition(
 
     """
     T, prior = len(mixture.mean), mixture.mode_probability
-    weight = log(prior)[track] + innovations.log_likelihood
+    weight = take_rows(log(prior), track) + innovations.log_likelihood
     weight = np.exp(weight - over_modes(np.maximum, weight)[:, None])
     weight *= (association.probability / over_modes(np.add, weight))[:, None]  # (P, J)
     posterior = association.miss[:, None] * prior + sum_by_track(weight, track, T)
     safe = np.maximum(posterior, _LEAST_MODE_PROBABILITY)
-    weight = weight / safe[track]
+    weight = weight / take_rows(safe, track)
 
     K, C = kalman_gain(innovations) if gain is None else gain, innovations.cross_covariance
     shift = np.einsum('pjnd,pjd->pjn', K, innovations.innovation)  # K nu

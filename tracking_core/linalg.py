@@ -23,7 +23,7 @@ def nearest_turn(angle: Floats, reference: Floats) -> Floats:
 
 def symmetrise(matrix: Floats) -> Floats:
     """Return the symmetric part of (..., n, n)."""
-    total = np.add(matrix, np.swapaxes(matrix, -1, -2), order='F')
+    total = np.add(matrix, matrix.swapaxes(-1, -2), order='F')
     total *= 0.5
     return np.asarray(total)
 
@@ -61,8 +61,9 @@ def inverse(matrix: Floats) -> tuple[Floats, Floats]:
     a, b, c = matrix[..., 0, 0], matrix[..., 0, 1], matrix[..., 1, 1]
     if size == 2:
         determinant = a * c - b * b
-        result[..., 0, 0], result[..., 1, 1] = c / determinant, a / determinant
-        result[..., 0, 1] = result[..., 1, 0] = -b / determinant
+        result[..., 0, 0], result[..., 1, 1] = c, a
+        result[..., 0, 1] = result[..., 1, 0] = -b
+        result /= determinant[..., None, None]
         return result, determinant
     if size > 3:
         return np.asarray(np.linalg.inv(matrix)), np.asarray(np.linalg.det(matrix))
@@ -80,23 +81,18 @@ def inverse(matrix: Floats) -> tuple[Floats, Floats]:
 
 def is_positive_definite(matrix: Floats) -> Bools:
     """Return for each symmetric (..., n, n) whether every pivot is positive and finite."""
-    n = matrix.shape[-1]
-    pivots = matrix.T.copy()
-    good = np.isfinite(pivots).all(axis=(0, 1))
+    rest = matrix.T
+    least = most = rest[0, 0]  # of the pivots; NaN stays
     with np.errstate(all='ignore'):  # of those that are not
-        for k in range(n):
-            good &= pivots[k, k] > 0.0
-            if k == n - 1:
-                break
-            pivots[k + 1 :, k + 1 :] -= pivots[k + 1 :, None, k] * (
-                pivots[None, k, k + 1 :] / pivots[k, k]
-            )
-    return np.asarray(good.T)
+        while len(rest) > 1:
+            rest = rest[1:, 1:] - rest[1:, None, 0] * (rest[None, 0, 1:] / rest[0, 0])
+            least, most = np.minimum(least, rest[0, 0]), np.maximum(most, rest[0, 0])
+    return np.asarray(((least > 0.0) & (most < np.inf)).T)
 
 
 def over_modes(join: np.ufunc, values: Floats) -> Floats:
     """Return values (T, J, ...) joined over the modes; numpy itself is slow where J is small."""
-    return np.asarray(reduce(join, np.swapaxes(values, 0, 1)))
+    return np.asarray(reduce(join, values.swapaxes(0, 1)))
 
 
 def sum_by_track(rows: Floats, track: Ints, tracks: int) -> Floats:

@@ -17,7 +17,7 @@ from tracking_core.composition import Plane
 from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.kalman import mixture_log_likelihood
 from tracking_core.linalg import determinant, over_modes
-from tracking_core.rows import take
+from tracking_core.rows import take, take_rows
 from tracking_core.sensing import Sensor
 
 _UNIT_BALL = {1: 2.0, 2: np.pi, 3: 4.0 * np.pi / 3.0}
@@ -167,7 +167,9 @@ def _innovate(
         item = plane.estimator.innovate(mixture, pairs.track, measured)
         innovations.append(item)
         distance += over_modes(np.minimum, item.distance)
-        log_likelihood += mixture_log_likelihood(mixture.mode_probability[pairs.track], item)
+        log_likelihood += mixture_log_likelihood(
+            take_rows(mixture.mode_probability, pairs.track), item
+        )
         dof += measured.value.shape[1] - measured.absent
     own = np.full(len(pairs), -1)
     return Gated(pairs, tuple(innovations), distance, log_likelihood, own), dof

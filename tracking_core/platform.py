@@ -141,9 +141,11 @@ def pose_at(platform: Platform | None, times: Floats) -> PlatformPose:
     if platform is not None:
         return platform.at(times)
     M = len(times)
+    orientation = np.zeros((M, 4))
+    orientation[:, 3] = 1.0
     return PlatformPose(
         position=np.zeros((M, 3)),
-        orientation=np.tile([0.0, 0.0, 0.0, 1.0], (M, 1)),
+        orientation=orientation,
         velocity=np.zeros((M, 3)),
         position_covariance=np.zeros((M, 3, 3)),
         yaw_variance=np.zeros(M),
