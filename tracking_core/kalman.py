@@ -12,6 +12,7 @@ from tracking_core.rows import take_rows
 
 _LOG_TWO_PI = float(np.log(2.0 * np.pi))
 _LEAST_MODE_PROBABILITY = 1e-300  # divides nothing by zero; such a mode has no weight anyway
+_ROUNDING = 64 * float(np.finfo(np.float64).eps)  # of the variances before a plot
 
 
 def innovate(mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
@@ -131,6 +132,10 @@ def condition(
     mean_shift = sum_by_track(weighted, track, T)
     covariance = mixture.covariance + sum_by_track(change, track, T)
     covariance -= np.einsum('tjn,tjm->tjnm', mean_shift, mean_shift)
+    # What the subtraction rounded off is not known: so small a part of what was there is left.
+    np.einsum('tjnn->tjn', covariance)[...] += _ROUNDING * np.einsum(
+        'tjnn->tjn', mixture.covariance
+    )
     total = over_modes(np.add, posterior)[:, None]
     return Mixture(
         mean=mixture.mean + mean_shift,

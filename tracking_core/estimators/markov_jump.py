@@ -14,7 +14,7 @@ from tracking_core.linalg import over_modes, symmetrise
 from tracking_core.mode_chain import Chain
 from tracking_core.motion import Motion
 
-_LEAST_WEIGHT = 1e-300  # a mode that cannot be reached has no weight, and no 0/0
+_LEAST_WEIGHT = 1e-300  # a mode that cannot be reached starts from itself, not from 0/0
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,8 @@ def mix(mixture: Mixture, transition_probability: Floats) -> Mixture:
     [ZHUK09] eq. 18 to 20.
 
     """
-    joint = mixture.mode_probability[:, :, None] * transition_probability  # (T, i, j)
+    probability = np.maximum(mixture.mode_probability, _LEAST_WEIGHT)
+    joint = probability[:, :, None] * transition_probability  # (T, i, j)
     predicted = over_modes(np.add, joint)
     weight = np.swapaxes(joint / np.maximum(predicted, _LEAST_WEIGHT)[:, None], 1, 2)  # (T, j, i)
     offset = mixture.mean - mixture.mean[:, :1]  # small numbers: no cancellation below
