@@ -62,7 +62,7 @@ def read_fields(msg: Any, max_rows: int, names: Names, overrides: Mapping[str, s
     """
     columns = columns_of(msg, max_rows)
     mapping = find_fields(columns, names, overrides)
-    with np.errstate(invalid='ignore'):  # a signalling NaN is still just a NaN
+    with np.errstate(invalid='ignore'):  # a signalling NaN becomes just a NaN
         values = {ours: _numbers(columns, theirs) for ours, theirs in mapping.items()}
     stamp = stamp_of(msg)
     rows = len(next(iter(columns.values()))) if columns else msg.width * msg.height
@@ -74,7 +74,7 @@ def _numbers(columns: Columns, name: str) -> Floats:
     values = columns[name]
     if values.ndim != 1:
         raise BadMessage('bad field', f'field {name} has count {values.shape[1]}, not 1')
-    return values.astype(np.float64)
+    return np.add(values, 0.0, dtype=np.float64)
 
 
 def _offset(

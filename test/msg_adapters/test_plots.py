@@ -135,6 +135,13 @@ def test_one_absurd_time_does_not_change_what_the_others_mean(types):
     np.testing.assert_allclose(to_plots(msg, Sensor(), 9).plots.time, [100.5, 100.25])
 
 
+def test_signalling_nan_is_a_nan_like_any_other(types):
+    """Arithmetic on such bits warns, and a warning ends whoever makes warnings errors."""
+    signal = np.array([0x7FF4000000000000], np.uint64).view(np.float64)[0]
+    msg = message(types, range=np.ones(2), azimuth=np.ones(2), time=[signal, 0.25])
+    np.testing.assert_allclose(to_plots(msg, Sensor(), 9).plots.time, [100.25])
+
+
 def test_whole_number_time_is_nanoseconds(types):
     """A uint32 t counts nanoseconds after the stamp."""
     msg = message(types, **POLAR, t=np.array([0, 500_000_000], np.uint32))
