@@ -119,7 +119,9 @@ def test_evaluate_of_bearings(make_bag: MakeBag, capsys: pytest.CaptureFixture[s
     assert found.held.coverage == 1.0
     for radius, said in (('0.05', '0.00%'), ('0.06', '100.00%')):  # it is 0.0573 deg off
         assert main([str(tracks), '--truth', str(truth), '--radius', radius]) == 0
-        assert re.search(f'^coverage +{said}', capsys.readouterr().out, re.MULTILINE)
+        out = capsys.readouterr().out
+        assert re.search(f'^coverage +{said}', out, re.MULTILINE)
+        assert 'nan' not in out
 
 
 def test_evaluate_command_writes_json_and_a_table(

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tracking_tools.evaluation.judgement import ContactJudgement, Judgement
-from tracking_tools.evaluation.units import in_words, Unit, UNITS
+from tracking_tools.evaluation.units import in_words, percent, Unit, UNITS
 from tracking_tools.scoring.consistency import Consistency
 
 MINUTE = 60.0
@@ -68,18 +68,18 @@ def rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
         yield (
             'range RMSE',
             in_words(ranges.rmse, 0, 'm'),
-            f'told in {ranges.share:.1%} of the rows',
+            f'told in {percent(ranges.share, 1)} of the rows',
         )
 
 
 def _held_rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
     held, timing = judgement.held, judgement.timing
-    yield 'coverage', f'{held.coverage:.2%}', 'of the scans with a contact'
+    yield 'coverage', percent(held.coverage, 2), 'of the scans with a contact'
     yield 'breaks', str(held.breaks), ''
     changes = f'{held.lasting_switches} lasting; {held.new_ids_after_absence} after an absence'
     yield 'id switches', str(held.id_switches), changes
-    yield 'purity', f'{held.purity:.2%}', ''
-    yield 'relative tracking time', f'{held.relative_tracking_time:.3f}', 'one break halves it'
+    yield 'purity', percent(held.purity, 2), ''
+    yield 'relative tracking time', _number(held.relative_tracking_time), 'one break halves it'
     yield 'false tracks', str(held.false_tracks), f'{held.false_tracks_per_hour:.1f} an hour'
     late, latest = timing.time_to_confirm_median, timing.time_to_confirm_max
     never = f'; {timing.never_confirmed} contacts never' if timing.never_confirmed else ''
@@ -88,7 +88,7 @@ def _held_rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
     told = f'{timing.manoeuvres_told} of {timing.manoeuvres} manoeuvres told'
     yield 'onset delay', in_words(timing.onset_delay_mean, 1, 's'), told
     alarm = timing.manoeuvre_false_alarm
-    yield 'manoeuvre false alarm', f'{alarm:.2%}', 'of the rows in straight motion'
+    yield 'manoeuvre false alarm', percent(alarm, 2), 'of the rows in straight motion'
 
 
 def _accuracy_rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
@@ -106,8 +106,8 @@ def _set_rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
     yield 'GOSPA', far(g.mean), f'rms {far(g.rms)}: {parts}; c {far(g.cutoff)}, p {g.power:g}'
     parts = f'localisation {far(o.localisation)}, cardinality {far(o.cardinality)}'
     yield 'OSPA', far(o.mean), f'{parts}; c {far(o.cutoff)}, p {o.power:g}'
-    picture = f'ambiguity {s.ambiguity:.3f}, spuriousness {s.spuriousness:.2%}'
-    yield 'SIAP completeness', f'{s.completeness:.2%}', picture
+    picture = f'ambiguity {_number(s.ambiguity)}, spuriousness {percent(s.spuriousness, 2)}'
+    yield 'SIAP completeness', percent(s.completeness, 2), picture
 
 
 def _band(found: Consistency) -> str:
@@ -131,4 +131,4 @@ def _contact(contact: ContactJudgement, unit: Unit) -> str:
 
 
 def _number(value: float) -> str:
-    return f'{value:.3f}'
+    return f'{value:.3f}' if math.isfinite(value) else 'none'

@@ -33,6 +33,11 @@ def in_words(value: float, digits: int, unit: str) -> str:
     return f'{value:.{digits}f} {unit}' if math.isfinite(value) else 'none'
 
 
+def percent(share: float, digits: int) -> str:
+    """Return a share in percent, or that there is none."""
+    return f'{share:.{digits}%}' if math.isfinite(share) else 'none'
+
+
 UNITS = {
     'radar': Unit('position', 'velocity', 1.0, 'm', 'm/s', 1),
     'sonar': Unit('bearing', 'bearing rate', math.degrees(1.0), 'deg', 'deg/s', 3),
