@@ -3,6 +3,7 @@
 """What a stranger sends, and what we depend on: no code from outside, small memory, known pins."""
 
 import ast
+from itertools import chain
 from pathlib import Path
 import tracemalloc
 from types import SimpleNamespace
@@ -97,8 +98,8 @@ def test_pins_satisfy_what_we_require(setup_arguments) -> None:
             assert only.operator == '=='
             pins[utils.canonicalize_name(pin.name)] = only.version
     extras = setup_arguments['extras_require']
-    wanted = setup_arguments['install_requires'] + extras['ros'] + extras['tools']
-    for text in wanted:
+    used = (extras[name] for name in ('ros', 'tools', 'feeds', 'report'))
+    for text in chain(setup_arguments['install_requires'], *used):
         requirement = requirements.Requirement(text)
         name = utils.canonicalize_name(requirement.name)
         if name != 'setuptools':  # that of the environment itself
