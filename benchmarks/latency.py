@@ -18,12 +18,13 @@ import logging
 from pathlib import Path
 import sys
 from tempfile import TemporaryDirectory
-from time import perf_counter
+from time import perf_counter, thread_time
 from typing import Any
 
 import numpy as np
 from sensor_msgs.msg import PointCloud2
 
+from benchmarks.machine import machine
 from benchmarks.processes import cpu_time
 from msg_adapters.message_types import rclpy_types
 from msg_adapters.session import Session
@@ -35,13 +36,16 @@ from tracking_core.batches import Floats
 from tracking_tools.testing import NodeProcess, private_domain, python_node, TrackerProbe
 
 ROOT = Path(__file__).parents[1]
+TEMPLATE = Path(__file__).with_name('latency.md')
 PERIOD, WARM = 4.0, 15  # s between scans; scans until all contacts are tracks
 START = 1_000_000.0  # s, stamp of the first scan
 ALLOWED = 1.5  # scan times that the node may be slower than the relay
 MILLISECONDS = 1e3
 HEAD = (
     '| contacts | relay p50 / p95 [ms] | node p50 / p95 [ms] | scan alone p50 [ms] '
-    '| allowed p50 [ms] | CPU a message, relay / node [ms] |\n' + '|---' * 6 + '|'
+    '| allowed p50 [ms] | holds | CPU a message, relay / node / scan alone [ms] |\n'
+    + '|---' * 7
+    + '|'
 )
 
 
@@ -52,7 +56,8 @@ class Outcome:
     relay: Floats
     node: Floats
     alone: Floats
-    cpu: tuple[float, float]  # a message, of relay and node
+    alone_cpu: Floats
+    cpu: tuple[float, float]  # a message, of relay and node, all they do
 
     @property
     def allowed(self) -> float:
@@ -65,10 +70,11 @@ class Outcome:
             MILLISECONDS * np.quantile(t, [0.5, 0.95]) for t in (self.relay, self.node)
         )
         alone, allowed = MILLISECONDS * np.median(self.alone), MILLISECONDS * self.allowed
-        relay, node = MILLISECONDS * np.array(self.cpu)
+        relay, node, used = MILLISECONDS * np.array([*self.cpu, self.alone_cpu.mean()])
+        holds = 'yes' if n50 <= allowed else '**no**'
         return (
             f'| {contacts} | {r50:.1f} / {r95:.1f} | {n50:.1f} / {n95:.1f} | {alone:.1f} '
-            f'| {allowed:.1f} | {relay:.1f} / {node:.1f} |'
+            f'| {allowed:.1f} | {holds} | {relay:.1f} / {node:.1f} / {used:.1f} |'
         )
 
 
@@ -89,11 +95,11 @@ def scans(contacts: int, number: int) -> list[Any]:
     return messages
 
 
-def follow(session: Session, msg: Any) -> float:
-    """Return how long tracker and adapters take for a message, without a graph [s]."""
-    began = perf_counter()
+def follow(session: Session, msg: Any) -> tuple[float, float]:
+    """Return what tracker and adapters take for a message, without a graph: time, CPU [s]."""
+    began, used = perf_counter(), thread_time()
     session.plots(msg, 0.0)
-    return perf_counter() - began
+    return perf_counter() - began, thread_time() - used
 
 
 def ask(probe: TrackerProbe, send: Callable[[Any], None], heard: list[Any], msg: Any) -> float:
@@ -133,7 +139,7 @@ def measure(contacts: int, number: int) -> Outcome:
                 (
                     ask(probe, into.publish, relayed, msg),
                     ask(probe, probe.plots.publish, probe.tables, msg),
-                    follow(session, msg),
+                    *follow(session, msg),
                 )
             )
         after = cpu_time(relay.process.pid), cpu_time(node.process.pid)
@@ -146,10 +152,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog='latency', description=__doc__)
     parser.add_argument('--contacts', type=int, nargs='+', default=[10, 200, 1000])
     parser.add_argument('--messages', type=int, default=100, help='measured ones of each size')
+    parser.add_argument('--output', type=Path, metavar='FILE', help='write the page there, too')
     chosen = parser.parse_args(arguments)
+    where, table = machine(), [HEAD]
     print(HEAD)
     for contacts in chosen.contacts:
-        print(measure(contacts, chosen.messages).row(contacts), flush=True)
+        table.append(measure(contacts, chosen.messages).row(contacts))
+        print(table[-1], flush=True)
+    if chosen.output is not None:
+        known = {'messages': chosen.messages, 'machine': where, 'table': '\n'.join(table)}
+        chosen.output.write_text(TEMPLATE.read_text(encoding='utf-8').format(**known), 'utf-8')
     return 0
 
 

@@ -12,8 +12,8 @@ from time import monotonic
 
 from tqdm import tqdm
 
+from benchmarks.machine import machine
 from benchmarks.peers.entrants import Entrant, ENTRANTS
-from benchmarks.peers.made import made
 from benchmarks.peers.menu import Entry, MENU
 from benchmarks.peers.picture import draw
 from benchmarks.peers.report import origins, Result, sections
@@ -56,7 +56,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _results(
     entries: Mapping[str, Entry], entrants: Mapping[str, Entrant], chosen: argparse.Namespace
 ) -> dict[str, Result]:
-    origin, end = made(entrants.values()), monotonic() + MINUTE * chosen.budget
+    versions = {name: is_ for one in entrants.values() for name, is_ in one.versions.items()}
+    origin, end = machine(versions), monotonic() + MINUTE * chosen.budget
     total = sum(one.scans * one.runs for one in entries.values()) * len(entrants)
     results = {}
     with tqdm(total=total, unit='scan', disable=None) as bar:

@@ -1,10 +1,10 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""When, on what and with what did this run?"""
+"""When and on what did a benchmark run, and who else used the machine?"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from datetime import datetime, timezone
 import os
 from pathlib import Path
@@ -13,16 +13,12 @@ import platform
 import numpy as np
 import scipy
 
-from benchmarks.peers.entrants import Entrant
 
-
-def made(entrants: Iterable[Entrant]) -> str:
-    """Return date, machine and versions."""
-    versions = {'numpy': np.__version__, 'scipy': scipy.__version__}
-    for entrant in entrants:
-        versions |= entrant.versions
-    names = ', '.join(f'{name} {value}' for name, value in versions.items())
+def machine(versions: Mapping[str, str] | None = None) -> str:
+    """Return date, processor, load, and the versions of Python, numpy, scipy and others."""
     now, cores = datetime.now(timezone.utc), os.cpu_count()
+    used = {'numpy': np.__version__, 'scipy': scipy.__version__, **(versions or {})}
+    names = ', '.join(f'{name} {value}' for name, value in used.items())
     return (
         f'{now:%Y-%m-%d %H:%M} UTC, {_processor()}, {cores} cores, {_load()}'
         f'Python {platform.python_version()}; {names}'
@@ -32,7 +28,7 @@ def made(entrants: Iterable[Entrant]) -> str:
 def _load() -> str:
     """Return how busy the machine was, where it says so."""
     try:
-        return f'load of the last quarter hour {os.getloadavg()[2]:.1f}, '
+        return f'load in the minute before {os.getloadavg()[0]:.1f}, '
     except (AttributeError, OSError):
         return ''
 
