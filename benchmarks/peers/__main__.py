@@ -16,7 +16,7 @@ from benchmarks.machine import machine
 from benchmarks.peers.entrants import Entrant, ENTRANTS
 from benchmarks.peers.menu import Entry, MENU
 from benchmarks.peers.picture import draw
-from benchmarks.peers.report import origins, Result, sections
+from benchmarks.peers.report import origin_text, Result, Results, sections
 from benchmarks.peers.rounds import play, sum_up
 from benchmarks.peers.shelf import keep, kept
 
@@ -39,18 +39,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for name, one in MENU.items()
         if name in (chosen.only or MENU)
     }
-    results = _results(entries, entrants, chosen)
+    results: Results = _results(entries, entrants, chosen)
     if chosen.keep is not None:
         results = kept(chosen.keep)
-    page = TEMPLATE.read_text(encoding='utf-8')
-    page = page.replace('{made}', '; '.join(origins(results)))
+    write(results, chosen.output)
+    return 0
+
+
+def write(results: Results, path: Path | None) -> None:
+    """Write the page and the picture beside it, or print the page."""
+    page = TEMPLATE.read_text(encoding='utf-8').replace('{made}', origin_text(results))
     page = page.replace('{tables}', '\n\n'.join(f'## {t}\n\n{x}' for t, x in sections(results)))
-    if chosen.output is None:
+    if path is None:
         print(page.replace('{picture}', ''))
     else:
-        shown = draw(results, chosen.output.with_suffix('.png'))
-        chosen.output.write_text(page.replace('{picture}', shown), encoding='utf-8')
-    return 0
+        shown = draw(results, path.with_suffix('.png'))
+        path.write_text(page.replace('{picture}', shown), encoding='utf-8')
 
 
 def _results(

@@ -29,6 +29,8 @@ def draw(results: Results, path: Path) -> str:
         if name not in (OURS, *VARIANTS):
             _place(axes[0, 1], results, name, look)
     _dress(axes[0, 0], 'contacts', 'CPU a scan [ms]', 'Growth, en route')
+    axes[0, 0].set_yscale('log')
+    axes[0, 0].yaxis.set_major_formatter('{x:g}')
     axes[0, 1].axhline(1.0, color='#4d5966', lw=0.8)
     axes[0, 1].axvline(1.0, color='#4d5966', lw=0.8)
     _dress(axes[0, 1], 'CPU by ours', 'GOSPA by ours', 'A mark for each scene; 1 is ours')
@@ -52,5 +54,7 @@ def _place(panel: Any, results: Results, name: str, look: dict[str, Any]) -> Non
 
 
 def _dress(panel: Any, across: str, up: str, title: str) -> None:
-    panel.set(xscale='log', yscale='log', xlabel=across, ylabel=up)
+    panel.set(xscale='log', xlabel=across, ylabel=up)
+    panel.xaxis.set_major_formatter('{x:g}')
+    panel.xaxis.set_minor_formatter('')
     panel.set_title(title, fontsize=10, loc='left')

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import math
 
 from benchmarks.peers.entrants import OURS, VARIANTS
-from benchmarks.peers.summary import BETTER, Row
+from benchmarks.peers.summary import ACCURACY, Row
 
 WANTED = {'en_route_10': 20, 'en_route_50': 60, 'en_route_200': 100, 'en_route_1000': 150,
           'formations': 60}  # fmt: skip
@@ -44,20 +44,21 @@ def table(head: str, lines: list[str]) -> str:
 
 def where_better(results: Results) -> str:
     """Return where another tracker is better than our default."""
-    lines = [
-        f'{result.title} | {row.title} | {line}'
-        for result in results.values()
-        for name, row in sorted(result.rows.items(), key=lambda item: item[0] in VARIANTS)
-        if name != OURS
-        for line in (*_better_figures(row, result), *_less_memory(row, result.rows[OURS]))
-    ]
+    lines = []
+    for result in results.values():
+        own, others = result.rows[OURS], {k: v for k, v in result.rows.items() if k != OURS}
+        for name, row in sorted(others.items(), key=lambda item: item[0] in VARIANTS):
+            found = [*_better_figures(row, result, ACCURACY)]
+            if name not in VARIANTS:  # of our own, only what is better is news
+                found += [*_better_figures(row, result, {'cpu': -1.0}), *_less_memory(row, own)]
+            lines += [f'{result.title} | {row.title} | {line}' for line in found]
     head = 'scene | tracker | measure | theirs | ours | difference (standard error)'
     return table(head, lines) if lines else 'Nowhere in this run.'
 
 
-def _better_figures(row: Row, result: Result) -> Iterator[str]:
+def _better_figures(row: Row, result: Result, senses: Mapping[str, float]) -> Iterator[str]:
     for measure, figure in row.figures.items():
-        if measure in BETTER and figure.is_better(BETTER[measure]):
+        if measure in senses and figure.is_better(senses[measure]):
             scale = result.scale if measure in {'gospa', 'rmse'} else 1.0
             own, error = (figure.mean - figure.margin) * scale, figure.error * scale
             sure = 'one run' if math.isnan(error) else f'+- {error:.3g}'
@@ -68,7 +69,9 @@ def _better_figures(row: Row, result: Result) -> Iterator[str]:
 
 
 def _less_memory(row: Row, own: Row) -> Iterator[str]:
-    if row.memory is not None and own.memory is not None and row.memory.held < own.memory.held:
+    if row.memory is None or own.memory is None:
+        return
+    if row.memory.held < 0.95 * own.memory.held:
         theirs, ours = row.memory.held / KILO, own.memory.held / KILO
         yield f'kB a track | {theirs:.1f} | {ours:.1f} | {theirs - ours:+.1f} (one run)'
 
@@ -84,7 +87,8 @@ def ratios(results: Results) -> str:
             if not row.figures:
                 lines.append(
                     f'{results[name].title} | {row.title} | >= {wanted} | {row.ratio:.0f} in its '
-                    f'scan {row.scans} | not judged, out of time | {_yes(row.ratio >= wanted)}'
+                    f'scan {row.scans} | not judged, out of time '
+                    f'| {_yes(row.ratio >= wanted)}, the speed'
                 )
                 continue
             gospa = row.figures['gospa']
@@ -158,17 +162,26 @@ def sections(results: Results) -> Iterator[tuple[str, str]]:
     if len(growing(results)) > 1:
         yield 'Growth', growth(results)
     for result in results.values():
-        yield result.title[0].upper() + result.title[1:], _scene(result, len(origins(results)) > 1)
+        yield result.title[0].upper() + result.title[1:], _scene(result, origins(results))
 
 
-def _scene(result: Result, is_apart: bool) -> str:
+def _scene(result: Result, known: list[str]) -> str:
     row = next(iter(result.rows.values()))
     runs = f'{row.runs}' if row.runs == result.wanted else f'{row.runs} of {result.wanted}'
-    origin = f' Run of its own: {result.made}.' if is_apart else ''
+    origin = f' From origin {known.index(result.made) + 1}.' if len(known) > 1 else ''
     return (
         f'{result.contacts:.0f} contacts and {result.plots:.0f} plots a scan, '
         f'{row.wanted} scans, {runs} runs.{origin}\n\n{scene_table(result)}'
     )
+
+
+def origin_text(results: Results) -> str:
+    """Return when, on what and with what the page was made; warn if not all in one run."""
+    known = origins(results)
+    if len(known) == 1:
+        return f'{known[0]}.'
+    told = ''.join(f'\n{number}. {made}.' for number, made in enumerate(known, 1))
+    return f'**not in one go**; each scene says of which of these it is:\n{told}\n'
 
 
 def origins(results: Results) -> list[str]:

@@ -14,7 +14,7 @@ from benchmarks.peers.judge import judge, SETTLING, Verdict
 from benchmarks.peers.race import Lap, Memory
 from benchmarks.peers.scenes import Scene
 
-BETTER = {'gospa': -1.0, 'held': 1.0, 'rmse': -1.0, 'switches': -1.0, 'cpu': -1.0}
+ACCURACY = {'gospa': -1.0, 'held': 1.0, 'rmse': -1.0, 'switches': -1.0}  # which sign is better
 LEAST = SETTLING + 3  # scans without which nothing can be said
 
 
@@ -27,8 +27,8 @@ class Figure:
     error: float  # standard error of the margin; NaN for a single run
 
     def is_better(self, sense: float) -> bool:
-        """Whether theirs is better, and not by chance: two standard errors."""
-        sure = 0.0 if math.isnan(self.error) else 2.0 * self.error
+        """Whether theirs is better, and not by chance: two standard errors, 2 % of one run."""
+        sure = 0.02 * abs(self.mean) if math.isnan(self.error) else 2.0 * self.error
         return sense * self.margin > max(sure, 1e-9 * abs(self.mean))
 
 

@@ -50,11 +50,14 @@ def test_main_says_which_results_are_of_another_run(tmp_path: Path) -> None:
     few = ['--peers', 'ours', '--scans', '10', '--runs', '1', '--keep', str(tmp_path)]
     page = tmp_path / 'peers.md'
     assert main(['--only', 'sonar', *few, '--output', str(page)]) == 0
-    assert 'Run of its own' not in page.read_text(encoding='utf-8')
+    assert 'not in one go' not in page.read_text(encoding='utf-8')
     kept = tmp_path / 'sonar.json'
     kept.write_text(json.dumps(json.loads(kept.read_text()) | {'made': 'long ago'}))
     assert main(['--only', 'one_that_turns', *few, '--output', str(page)]) == 0
-    assert 'Run of its own: long ago.' in page.read_text(encoding='utf-8')
+    text = page.read_text(encoding='utf-8')
+    assert 'not in one go' in text
+    assert '\n2. long ago.' in text
+    assert text.count('From origin 2.') == 1
 
 
 @pytest.mark.parametrize('name', [name for name in ENTRANTS if not name.startswith('ours')])
