@@ -10,7 +10,7 @@ from msg_adapters.table import to_columns
 from tracking_tools.testing import confirmed_ids
 
 SIGINT, SIGKILL = signal.SIGINT, signal.SIGKILL
-INTERVAL, DEADLINE = 0.5, 20.0  # s between two scans, until one is answered
+INTERVAL, STEP = 0.5, 0.01  # between two scans until one is answered [s], by clock and by stamps
 MOST = 1000  # rows
 
 
@@ -27,10 +27,10 @@ def start_again(node, start_node, probe, parameters, number):
     node, heard = start_node(*parameters), len(probe.tables)
 
     def scan(_):
-        probe.stamp += 0.5
+        probe.stamp += STEP  # however slow the start is, no jump of time
         probe.send(probe.sensor.contacts(probe.stamp), probe.stamp)
 
-    probe.peer.ask(scan, lambda: len(probe.tables) > heard, 'an answer', INTERVAL, DEADLINE)
+    probe.peer.ask(scan, lambda: len(probe.tables) > heard, 'an answer', INTERVAL)
     return node, to_columns(probe.tables[heard], MOST)
 
 
