@@ -5,7 +5,8 @@ Every command in the README and the pages beside it works, or names only what ex
 
 What runs without a ROS installation runs here, in a folder with a short piece of the demo scene;
 nodes, benchmarks and studies have tests of their own and are looked up. Commands of ros2 are
-compared with entry points, launch files, parameters and topics.
+compared with entry points, launch files, parameters and topics. The tutorial's run in
+``tracking_tools/test_tutorial.py``.
 """
 
 from importlib.util import find_spec
@@ -30,10 +31,9 @@ from tracking_tools.bags import BagWriter, open_bag
 ROOT = Path(__file__).parent.parent
 PAGES = (
     'README.md',
-    *(f'docs/{name}.md' for name in
-      ('radar_node', 'sonar_node', 'integrate', 'from_a_bag', 'troubleshooting', 'inputs',
-       'evaluation')),
-)  # fmt: skip
+    'CONTRIBUTING.md',
+    *sorted(f'docs/{path.name}' for path in ROOT.glob('docs/*.md') if path.stem != 'tutorial'),
+)
 FENCE = re.compile(r'^```(\w*)\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 HERE = {
     'tracking_tools.replay', 'tracking_tools.evaluate', 'tracking_tools.report',
@@ -55,7 +55,8 @@ def commands():
         for kind, block in FENCE.findall((ROOT / page).read_text(encoding='utf-8')):
             if kind not in ('', 'sh', 'bash'):
                 continue
-            lines = (shlex.split(line, comments=True) for line in block.splitlines())
+            whole = block.replace('\\\n', ' ').splitlines()  # a backslash goes on below
+            lines = (shlex.split(line, comments=True) for line in whole)
             found += [(page, words) for words in lines if words]
     return found
 
@@ -69,18 +70,17 @@ def of(*start):
     ]
 
 
-@pytest.fixture(scope='module')
-def folder(tmp_path_factory):
+@pytest.fixture
+def folder(tmp_path):
     """Return a folder with what the commands name: twenty turns of the demo scene, parameters."""
-    folder = tmp_path_factory.mktemp('commands')
-    (folder / 'config').symlink_to(ROOT / 'config')
+    (tmp_path / 'config').symlink_to(ROOT / 'config')
     with (
         open_bag(ROOT / 'demo' / 'terminal_area') as bag,
-        BagWriter(folder / 'demo' / 'terminal_area') as out,
+        BagWriter(tmp_path / 'demo' / 'terminal_area') as out,
     ):
         for connection, time, raw in islice(bag.messages(), 40):
             out.write_raw(connection.topic, connection.msgtype, raw, time)
-    return folder
+    return tmp_path
 
 
 def test_all_commands_are_of_a_known_kind():
@@ -88,26 +88,30 @@ def test_all_commands_are_of_a_known_kind():
     known = {
         ('make',), ('python', '-m'), ('colcon',), ('rviz2',), ('ros2', 'launch'), ('ros2', 'run'),
         ('ros2', 'param'), ('ros2', 'topic'), ('ros2', 'service'), ('ros2', 'lifecycle'),
-        ('ros2', 'bag'),
+        ('ros2', 'bag'), ('ros2', 'security'), ('dask',), ('export',),
     }  # fmt: skip
     assert len(commands()) > 20
     strange = [w for _, w in commands() if not {tuple(w[:1]), tuple(w[:2])} & known]
     assert not strange
 
 
-@pytest.mark.parametrize('words', of('python', '-m'))
-def test_module_runs_or_has_these_options(words, folder, monkeypatch, capsys):
-    """In the order of the pages: a later command uses what an earlier one wrote."""
-    module, *arguments = words
-    if module not in HERE:
-        check_options(module, arguments, monkeypatch, capsys)
-        return
+def test_tools_run_in_the_order_of_the_pages(folder, monkeypatch):
+    """Each ends with 0 and leaves what it promises; a later one uses what an earlier one wrote."""
     monkeypatch.chdir(folder)
-    output = arguments[arguments.index('--output') + 1] if '--output' in arguments else None
-    if output is not None and Path(output).exists():
-        return  # the README and a page name the same
-    assert run(module, arguments, monkeypatch) == 0
-    assert output is None or Path(output).exists()
+    told = [(page, words[2], words[3:]) for page, words in commands() if words[1:2] == ['-m']]
+    for page, module, arguments in told:
+        output = arguments[arguments.index('--output') + 1] if '--output' in arguments else None
+        if module not in HERE or (output is not None and Path(output).exists()):
+            continue  # the README and a page name the same
+        assert run(module, arguments, monkeypatch) == 0, f'{page}: {module} {arguments}'
+        assert output is None or Path(output).exists()
+
+
+@pytest.mark.parametrize('words', of('python', '-m'))
+def test_module_has_these_options(words, monkeypatch, capsys):
+    """Also those that would take too long here."""
+    if words[0] not in HERE:
+        check_options(words[0], words[1:], monkeypatch, capsys)
 
 
 def run(module, arguments, monkeypatch):
@@ -128,9 +132,9 @@ def check_options(module, arguments, monkeypatch, capsys):
     assert all((ROOT / file).exists() for file in files)
     if module.startswith('tracking_tools'):
         assert run(module, ['--help'], monkeypatch) == 0
-        said = capsys.readouterr().out
+        known = set(re.findall(r'--[\w-]+', capsys.readouterr().out))
         ours = arguments[: [*arguments, '--ros-args'].index('--ros-args')]
-        assert all(word in said for word in ours if word.startswith('--'))
+        assert {word for word in ours if word.startswith('--')} <= known
 
 
 @pytest.mark.parametrize('page', [ROOT / 'README.md', *sorted(ROOT.glob('docs/**/*.md'))], ids=str)
@@ -173,6 +177,8 @@ def test_ros2_run_finds_the_command(words, setup_arguments):
     scripts = setup_arguments['entry_points']['console_scripts']
     assert words[0] == 'contact_tracking'
     assert words[1] in {script.split(' =')[0] for script in scripts}
+    enclaves = [word for word in words if word.startswith('/contact_tracking/')]
+    assert enclaves == [f'/contact_tracking/{words[1]}'] * ('--enclave' in words)
 
 
 @pytest.mark.parametrize('words', of('ros2', 'param'))
@@ -203,3 +209,14 @@ def test_the_rest_names_nodes_topics_and_files_that_exist(words):
             assert node or TOPICS.fullmatch(word)
         elif word.startswith(('rviz/', 'demo/')):
             assert (ROOT / word).exists()
+
+
+@pytest.mark.parametrize('words', [*of('ros2', 'security'), *of('dask')])
+def test_policies_are_shipped_and_extras_are_named(words, setup_arguments):
+    """What the other programs are given is in share/, or they come with an extra."""
+    extras = ' '.join(setup_arguments['extras_require']['dask'])
+    assert words[0] in ('create_keystore', 'generate_artifacts') or 'distributed' in extras
+    shipped = dict(setup_arguments['data_files'])
+    for word in words:
+        folder, _, file = word.partition(')/')[2].rpartition('/')
+        assert not file or file in {Path(path).name for path in shipped[folder]}
