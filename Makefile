@@ -32,7 +32,7 @@ demo-sonar: $(READY) ## the same for the sonar node: bearings through a crossing
 	$(BIN)/python -m tracking_tools.demo_sonar $(ARGS)
 
 test: $(READY) ## run the whole test suite
-	$(BIN)/python -m pytest $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal $(ARGS)
 
 soak: $(READY) ## run the long versions of the reliability tests; takes hours
 	$(BIN)/python -m pytest -m soak -s $(ARGS)

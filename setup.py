@@ -64,6 +64,7 @@ setup(
         'test': [
             'pytest>=7.4',
             'pytest-cov>=4.1',
+            'pytest-xdist>=3.5',  # node tests wait for each other's processes: several at once
             'hypothesis>=6.98',
             'distributed>=2024.1',
             'ruff==0.17.*',  # the next minor version may format otherwise

@@ -45,7 +45,8 @@ def test_tracks_live_through_a_gap_of_own_ship(start_node, probe):
     probe.meet()
     probe.spin_until(ownship.get_subscription_count)
     since = probe.stamp
-    ownship.publish(odometry(since, since))
+    for before in (0.2, 0.1, 0.0):  # one alone is not believed
+        ownship.publish(odometry(since - before, since))
     node.wait_for_line("the tracking frame is 'odom'")
 
     def cycle():
