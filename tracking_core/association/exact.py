@@ -114,7 +114,12 @@ def _rank(label: Ints, counts: Ints) -> Ints:
 
 def _batches(layout: _Layout, wanted: Bools) -> Iterator[Ints]:
     """Yield clusters of alike rows and columns, few enough to fit into memory."""
-    batch, rows, columns = np.flatnonzero(wanted)[:0], 0, 0
+    batch = np.flatnonzero(wanted)
+    rows, columns = int(layout.rows[batch].max()), int(layout.columns[batch].max())
+    if rows * columns * len(batch) << rows <= PADDING:
+        yield from _split(batch, rows, columns)
+        return
+    batch, rows, columns = batch[:0], 0, 0
     kind = np.where(wanted, 64 * layout.rows + np.frexp(layout.columns)[1], -1)
     for alike in sorted(set(kind[wanted].tolist()), reverse=True):
         more = np.flatnonzero(kind == alike)
