@@ -90,7 +90,8 @@ class Tracker:
             seen.tracks, seen.passed, self.setup.merge, self.setup.sensor.is_angular
         )
         kept = take(living, ~doubled)
-        fitting = take(born, slice(0, max(self.setup.max_tracks - len(kept), 0)))
+        room = max(self.setup.max_tracks - len(kept), 0)
+        fitting = born if len(born) <= room else take(born, slice(0, room))
         clutter, looks = self._clutter(scan, seen, used)
         self.state = State(
             tracks=concatenate(kept, fitting) if len(fitting) else kept,

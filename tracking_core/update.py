@@ -22,7 +22,7 @@ from tracking_core.linalg import is_positive_definite, sum_by_track
 from tracking_core.looks import LONGEST_WAIT
 from tracking_core.pairing import Gated, pair, thresholds
 from tracking_core.prediction import longest_lag, next_passes, predict_tracks, Predicted
-from tracking_core.rows import put, take
+from tracking_core.rows import concatenate, take
 from tracking_core.sharing import Share, share_plots
 from tracking_core.unresolved import add_common
 
@@ -89,24 +89,25 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     waiting = np.zeros(len(scan), bool)
     waiting[gated.pairs.plot[~due[gated.pairs.track]]] = True
 
-    gated = _of_tracks(gated, due & (near.detection > 0.0), due)
-    passed = take(near, due)
-    gated, common = add_common(passed, gated, scan, setup)
-    existence = passed.tracks.existence_probability
-    share = share_plots(existence, passed.detection, gated, scan, setup, density, common)
-    updated, ended, broken = _update(passed, gated, share, scan, setup)
-    ended |= passed.crowd * density.total > _LOST  # it follows nobody any more
+    # A track that waits is not seen now; it stays as it was.
+    seen = replace(near, detection=np.where(due, near.detection, 0.0))
+    gated = take(gated, (seen.detection > 0.0)[gated.pairs.track])
+    gated, common = add_common(seen, gated, scan, setup)
+    existence = seen.tracks.existence_probability
+    share = share_plots(existence, seen.detection, gated, scan, setup, density, common)
+    updated, ended, broken = _update(seen, gated, share, scan, setup)
+    ended |= seen.crowd * density.total > _LOST  # it follows nobody any more
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
-    lives = ~(ended | broken)
+    lives = due & ~(ended | broken)
     again, early = next_passes(updated, lives, scan)
     kept, worked_on = np.ones(len(tracks), bool), np.zeros(len(tracks), bool)
-    kept[passed.row], worked_on[passed.row] = lives, True
+    kept[near.row[due]], worked_on[near.row[due]] = lives[due], True
     return Look(
-        tracks=take(put(tracks, passed.row, updated), kept),
+        tracks=_merge(tracks, near.row, updated, kept, worked_on),
         kept=kept,
         ended=tracks.id[~kept],
-        broken=int(broken.sum()),
+        broken=int((due & broken).sum()),
         claimed=claimed,
         waiting=(waiting | early) & (claimed == 0.0),
         passed=worked_on[kept],
@@ -114,6 +115,16 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
         approximate=int(share.approximate.sum()),
         again=again,
     )
+
+
+def _merge(tracks: Tracks, row: Ints, updated: Tracks, kept: Bools, worked_on: Bools) -> Tracks:
+    """Return those `kept` of the tracks (T,), those `worked_on` as `updated`, their `row` (N,)."""
+    if worked_on.all():
+        return take(updated, kept)
+    waiting = (~worked_on).nonzero()[0]
+    source = np.empty(len(tracks), np.int64)
+    source[row], source[waiting] = np.arange(len(row)), len(row) + np.arange(len(waiting))
+    return take(concatenate(updated, take(tracks, waiting)), source[kept])
 
 
 def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:
@@ -135,42 +146,33 @@ def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:
     return np.asarray(left_behind & (~waits[label] | overdue))
 
 
-def _of_tracks(gated: Gated, visible: Bools, kept: Bools) -> Gated:
-    """Return the pairs of visible tracks, with tracks numbered as among the kept ones."""
-    gated = take(gated, visible[gated.pairs.track])
-    if kept.all():
-        return gated
-    number = np.cumsum(kept) - 1
-    return replace(gated, pairs=replace(gated.pairs, track=number[gated.pairs.track]))
-
-
 def _update(
-    passed: Predicted, gated: Gated, share: Share, scan: Scan, setup: Setup
+    seen: Predicted, gated: Gated, share: Share, scan: Scan, setup: Setup
 ) -> tuple[Tracks, Bools, Bools]:
     """Return the updated tracks, which have ended, and which are no longer sound."""
-    track, T = gated.pairs.track, len(passed.row)
+    track, T = gated.pairs.track, len(seen.row)
     planes = tuple(
         plane.estimator.update(mixture, track, innovations, share.association)
         for plane, mixture, innovations in zip(
-            setup.planes, passed.planes, gated.innovations, strict=True
+            setup.planes, seen.planes, gated.innovations, strict=True
         )
     )
     found = share.found
-    hit = setup.lifecycle.hits(found, passed.planes[0], planes[0])
+    hit = setup.lifecycle.hits(found, seen.planes[0], planes[0])
     weighted = sum_by_track(share.association.probability * gated.distance, track, T)
     tracks = replace(
-        count_looks(passed.tracks, hit),
+        count_looks(seen.tracks, hit),
         planes=planes,
         existence_probability=share.existence_probability,
-        gate_size=passed.gates.three_sigma,
-        gate_volume=passed.gates.volume,
-        level=_follow_level(passed.tracks, gated, share, scan),
+        gate_size=seen.gates.three_sigma,
+        gate_volume=seen.gates.volume,
+        level=_follow_level(seen.tracks, gated, share, scan),
         nis=np.where(found > 0.5, weighted / np.maximum(found, 0.5), np.nan),
     )
     confirmed, ended = setup.lifecycle.judge(tracks, share.existence_probability)
-    ended |= has_left(tracks, passed.detection > 0.0)
+    ended |= has_left(tracks, seen.detection > 0.0)
     sound = [is_positive_definite(mixture.covariance).all(axis=1) for mixture in planes]
-    return replace(tracks, confirmed=confirmed), ended, ~np.all(sound, axis=0)
+    return replace(tracks, confirmed=confirmed), ended, ~np.logical_and.reduce(sound)
 
 
 def _follow_level(tracks: Tracks, gated: Gated, share: Share, scan: Scan) -> Floats:
