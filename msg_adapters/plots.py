@@ -95,7 +95,8 @@ def to_plots(
     keep, dropped = choose_rows(plots, checks)
     refuse_if_useless(keep, dropped)
     plots = take(plots, keep)
-    plots = replace(plots, azimuth=wrap_angle(plots.azimuth))
+    if polar:
+        plots = replace(plots, azimuth=wrap_angle(plots.azimuth))
     if polar and 'x' in read:
         contradictions = _contradictions(plots)
         doubtful |= {'polar and x, y disagree': contradictions} if contradictions else {}

@@ -66,7 +66,7 @@ def from_columns_under(
         header=header,
         height=1,
         width=len(rows),
-        fields=[types.PointField(**place) for place in _places(dtype)],
+        fields=list(_fields(types, dtype)),
         is_bigendian=False,
         point_step=dtype.itemsize,
         row_step=dtype.itemsize * len(rows),
@@ -84,16 +84,16 @@ def _row_type(columns: Mapping[str, NDArray[Any]]) -> np.dtype[Any]:
 
 
 @lru_cache(maxsize=64)
-def _places(dtype: np.dtype[Any]) -> tuple[dict[str, Any], ...]:
-    """Return what a PointField says of each column: the same from message to message."""
+def _fields(types: MessageTypes, dtype: np.dtype[Any]) -> tuple[Any, ...]:
+    """Return a PointField for each column: the same from message to message."""
     fields: Mapping[str, Any] = dtype.fields or {}
     return tuple(
-        {
-            'name': name,
-            'offset': offset,
-            'datatype': _CODES[kind.base.str[1:]],
-            'count': int(np.prod(kind.shape)),
-        }
+        types.PointField(
+            name=name,
+            offset=offset,
+            datatype=_CODES[kind.base.str[1:]],
+            count=int(np.prod(kind.shape)),
+        )
         for name, (kind, offset, *_) in fields.items()
     )
 

@@ -16,7 +16,7 @@ TENTATIVE, CONFIRMED, DELETED = 0, 1, 2  # of the column `status`
 
 def with_deleted(previous: Tracks, tracks: Tracks) -> tuple[Tracks, Bools]:
     """Return the tracks and below them the previous ones that are gone, and which those are."""
-    gone = ~np.isin(previous.id, tracks.id, assume_unique=True)
+    gone = ~np.isin(previous.id, tracks.id, assume_unique=True, kind='sort')
     alike = [p.mean.shape[1:] for p in previous.planes] == [
         p.mean.shape[1:] for p in tracks.planes
     ]

@@ -23,6 +23,7 @@ _FEWEST = 8  # plots from which a rate is learnt
 _SAMPLES = 400  # plots remembered while learning
 _PERIODS = (0.4, 60.0)  # of antennas [s]
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
+_STILL = 1e-9  # part of the rate by which it may change and still stand
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
 
 
@@ -105,12 +106,12 @@ class Antenna:
 
     def _learn(self, time: Floats, azimuth: Floats) -> None:
         """Follow the rate, or find it."""
-        if len(time) and np.ptp(time) == 0.0 and not self._rate:
+        if not self._rate and len(time) and np.ptp(time) == 0.0:
             self._stares |= bool(np.abs(np.exp(1j * azimuth).mean()) < _IN_STEP)
         if self._stares:
             return
         if len(time) > _SAMPLES // 2:
-            evenly = np.linspace(0, len(time) - 1, _SAMPLES // 2).astype(np.int64)
+            evenly = np.arange(_SAMPLES // 2) * (len(time) - 1) // (_SAMPLES // 2 - 1)
             time, azimuth = time[evenly], azimuth[evenly]
         self._time = np.concatenate([self._time, time])[-_SAMPLES:]
         self._azimuth = np.concatenate([self._azimuth, azimuth])[-_SAMPLES:]
@@ -157,8 +158,11 @@ class Antenna:
         square = float(t @ t)
         for _ in range(3):
             beam = self._azimuth - self._rate * t
-            off = wrap_angle(beam - np.arctan2(np.sin(beam).sum(), np.cos(beam).sum()))
-            self._rate += float(t @ off) / square
-        if self._in_step(np.array([self._rate]))[0] < _IN_STEP:
+            sine, cosine = np.sin(beam).sum(), np.cos(beam).sum()
+            step = float(t @ wrap_angle(beam - np.arctan2(sine, cosine))) / square
+            self._rate += step
+            if abs(step) < _STILL * abs(self._rate):
+                break
+        if np.hypot(sine, cosine) < _IN_STEP * len(t):
             self._rate = 0.0
             self._time, self._azimuth = self._time[-50:], self._azimuth[-50:]

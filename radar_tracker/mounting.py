@@ -11,6 +11,7 @@ import numpy as np
 from radar_tracker.antenna import Sweep
 from radar_tracker.config import MountConfig, SensorConfig
 from tracking_core.batches import Coverage, Floats
+from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
 
 
@@ -31,7 +32,7 @@ def sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats | None, 
 def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Coverage:
     """Turn what the antenna swept into the tracking frame; `ends` are the first and last pose."""
     heading = ends.yaw + sensor.mount.yaw
-    turn = float(np.angle(np.exp(1j * (heading[1] - heading[0]))))
+    turn = float(wrap_angle(heading[1] - heading[0]))
     x, y, z = sensor_pose(ends, sensor.mount)[1][1]
     return Coverage(
         start_time=sweep.start_time,

@@ -51,7 +51,7 @@ def from_innovation(
 ) -> Innovations:
     """Return distances and likelihoods of innovations nu (P, J, d) with covariance S."""
     S_inverse, determinant = inverse(S)
-    distance = np.einsum('pjd,pjde,pje->pj', nu, S_inverse, nu)
+    distance = np.einsum('pjd,pjd->pj', nu, np.einsum('pjde,pje->pjd', S_inverse, nu))
     present = nu.shape[-1] - absent[:, None]
     log_likelihood = -0.5 * (distance + np.log(determinant) + present * _LOG_TWO_PI)
     return Innovations(nu, S, distance, log_likelihood, cross, noise)

@@ -72,7 +72,8 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
 def _travel(azimuth: Floats, coverage: Coverage) -> Floats:
     """Return the angle in [0, 2 pi) that the antenna has turned since it pointed there."""
     end = coverage.start_azimuth + coverage.sweep
-    return np.asarray(((end - azimuth) * np.sign(coverage.sweep)) % (2.0 * np.pi))
+    ahead = end - azimuth if coverage.sweep > 0.0 else azimuth - end
+    return np.asarray(ahead % (2.0 * np.pi))
 
 
 def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:

@@ -29,7 +29,7 @@ def share_of_new(expected: float, evidence: Floats, free: Floats) -> float:
     share = expected
     for _ in range(_STEPS):
         prior = share * free
-        real = (prior * (1.0 + evidence) / (1.0 + prior * evidence)).clip(0.0, 1.0).sum()
+        real = np.minimum(prior * (1.0 + evidence) / (1.0 + prior * evidence), 1.0).sum()
         share = min((_TRUST * expected + real) / (_TRUST + len(free)), MOST_NEW)
     return share
 
