@@ -11,6 +11,8 @@ import sys
 
 import pytest
 
+from tracking_tools.testing import NodeProcess, Peer
+
 ROOT = Path(__file__).parent.parent
 NAME = 'contact_tracking'
 COLCON = shutil.which('colcon', path=f'{Path(sys.executable).parent}{os.pathsep}{os.defpath}')
@@ -77,10 +79,31 @@ def test_installed_command_runs(workspace: Path) -> None:
     assert Path(found.strip()).is_relative_to(workspace / 'install')
 
 
+def test_installed_node_becomes_active(
+    workspace: Path, ros_domain_id: int, tmp_path: Path
+) -> None:
+    """As ros2 run starts it, with a preset from share/; it ends with 0."""
+    prefix = workspace / 'install' / NAME
+    preset = prefix / 'share' / NAME / 'config' / 'terminal_radar.yaml'
+    command = (
+        f'source {workspace}/install/setup.bash && '
+        f'exec {prefix}/lib/{NAME}/radar_tracker --ros-args --params-file {preset}'
+    )
+    with (
+        NodeProcess(
+            ['bash', '-c', command], ros_domain_id, tmp_path / 'log', folder=tmp_path
+        ) as run,
+        Peer(ros_domain_id, check=run.check) as peer,
+    ):
+        peer.wait_until_active('radar_tracker')
+        assert 'parameters come from files' in run.log
+    assert run.exit_code == 0
+
+
 def test_colcon_test_runs_tests(workspace: Path) -> None:
     """Colcon finds pytest and counts its tests; a run of nothing would be green as well."""
-    chosen = ('--pytest-args', 'test/test_launch_files.py')
-    _run(workspace, str(COLCON), 'test', *chosen)
+    chosen = ('--pytest-args', 'test/test_launch_files.py', '--no-cov')  # whose pages take long
+    _run(workspace, str(COLCON), 'test', '--return-code-on-test-failure', *chosen)
     summary = _run(workspace, str(COLCON), 'test-result')
     counts = re.search(r'(\d+) tests, 0 errors, 0 failures, 0 skipped', summary)
     assert counts is not None, summary
