@@ -146,8 +146,9 @@ def _elevation(read: Mapping[str, Floats], position: Floats) -> Floats:
 def _contradictions(plots: Plots) -> int:
     """Count the rows whose position is not where range and azimuth say."""
     x, y, z = np.nan_to_num(plots.position).T
-    ground = np.hypot(x, y)
-    off = np.minimum(abs(ground - plots.range), abs(np.hypot(ground, z) - plots.range))
+    with np.errstate(over='ignore'):
+        ground = np.hypot(x, y)
+        off = np.minimum(abs(ground - plots.range), abs(np.hypot(ground, z) - plots.range))
     turned = abs(wrap_angle(np.arctan2(y, x) - plots.azimuth))
     return int(np.sum((off > DISAGREEMENT * plots.range) | (turned > DISAGREEMENT)))
 

@@ -224,6 +224,9 @@ def test_huge_values_do_no_harm(types):
     huge = [1e308, -1e308, 1.0]
     assert len(to_plots(message(types, x=huge, y=huge), Sensor(), 9).plots) == 1
     assert len(to_plots(message(types, range=huge, azimuth=huge), Sensor(), 9).plots) == 1
+    polar = {'range': np.ones(3), 'azimuth': np.ones(3)}
+    most = np.full(3, np.finfo(np.float64).max)
+    assert len(to_plots(message(types, **polar, x=most, y=most), Sensor(), 9).plots) == 3
 
 
 def test_message_of_bad_rows_only_is_refused(types):
