@@ -78,21 +78,25 @@ class Memory:
 
 
 def memory(scene: Scene, entrant: Entrant, limit: float) -> Memory:
-    """Return the memory that a tracker takes on a scene, its libraries not counted."""
+    """
+    Return the memory that a tracker takes on a scene, its libraries not counted.
+
+    It gets no more scans once it has tracks and has used so much CPU [s].
+    """
     warm = entrant.make(scene.knowledge)
     for k in range(2):  # imports, tables and compiled code are not the tracks'
         warm.step(float(scene.times[k]), scene.plots[k])
     del warm
     tracemalloc.start()
-    begin, tracks = process_time(), 1
+    begin, tracks = process_time(), 0
     runner = entrant.make(scene.knowledge)
     for time, plots in zip(scene.times.tolist(), scene.plots, strict=True):
-        tracks = max(len(runner.step(time, plots)[0]), 1)
-        if process_time() - begin > limit:
+        tracks = len(runner.step(time, plots)[0])
+        if tracks and process_time() - begin > limit:
             break
     held, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    return Memory(held / tracks, float(peak))
+    return Memory(held / max(tracks, 1), float(peak))
 
 
 def typical(cpu: list[float], settling: int) -> float:

@@ -17,7 +17,7 @@ from benchmarks.peers.report import Result
 from benchmarks.peers.scenes import Scene
 from benchmarks.peers.summary import compare
 
-MEMORY_SCANS, MEMORY_LIMIT = 8, 30.0  # [s]
+MEMORY_SCANS, MEMORY_LIMIT = 8, 10.0  # [s]
 Tick = Callable[[str], object]  # told what is done
 Race = tuple[Scene, Mapping[str, Lap]]
 
