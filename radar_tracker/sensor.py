@@ -164,7 +164,7 @@ class Radar:
         c, M, d = self.config, len(plots), self.dimensions
         if not self.is_polar:
             told, usual = plots.position_covariance, c.position_sd**2 * np.eye(3)
-            return np.nan_to_num(plots.position), np.where(np.isnan(told), usual, told)
+            return _or_like(plots.position, np.zeros(3)), _or_like(told, usual)
         polar = np.stack([plots.range, plots.azimuth, np.nan_to_num(plots.elevation)], axis=1)
         sd = np.stack(
             [

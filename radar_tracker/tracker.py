@@ -154,12 +154,13 @@ class RadarTracker:
             tracker = Tracker(build_setup(self.config, self._radar))
             tracker.reset(self.state.next_id)
             self._tracker, self._is_known = tracker, True
-        if self._radar.is_polar:
-            farthest = plots.range.max()
-        else:
-            square = plots.position[:, : self.dimensions] ** 2
-            farthest = np.sqrt(np.nansum(square, axis=1).max())
-        self._farthest = max(self._farthest, float(farthest))
+        distance = plots.range
+        if not self._radar.is_polar:
+            x, y, z = plots.position.T
+            distance = np.hypot(x, y)
+            if self.dimensions == 3:
+                distance = np.fmax(distance, np.hypot(distance, z))  # z may be NaN
+        self._farthest = max(self._farthest, float(distance.max()))
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:
         """Open the gates for what own ship does not know of itself."""

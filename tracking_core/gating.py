@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from tracking_core.batches import Floats, Ints
 from tracking_core.linalg import wrap_angle
 
 _FEW = 20_000  # track-plot combinations that are all compared sooner than sorted
+_SAMPLED = 64  # boxes that tell the usual size
 _MOST_CELLS, _CELLS_PER_PLOT = 2**16, 8  # of the grid: what 16 bits number, and not too many
 
 
@@ -110,11 +113,11 @@ def _candidates(centre: Floats, half_size: Floats, plots: Floats, most: int) -> 
 
 def _cells(extent: Floats, half_size: Floats, plots: int) -> tuple[Floats, Ints]:
     """Return width and height of the cells, and how many there are each way."""
-    usual = np.sort(half_size[:, :2], axis=0)[len(half_size) // 2]
-    number = np.minimum(extent / np.maximum(usual, 1e-9), _MOST_CELLS) + 1.0
-    number /= max(np.sqrt(number.prod() / min(_MOST_CELLS, _CELLS_PER_PLOT * plots)), 1.0)
-    shape = np.maximum(number, 1.0).astype(np.int64)
-    shape = np.minimum(shape, _MOST_CELLS // shape[::-1])
+    usual = np.sort(half_size[:: max(len(half_size) // _SAMPLED, 1), :2], axis=0)
+    wide, high = np.minimum(extent / np.maximum(usual[len(usual) // 2], 1e-9), _MOST_CELLS) + 1.0
+    surplus = math.sqrt(wide * high / min(_MOST_CELLS, _CELLS_PER_PLOT * plots))
+    columns, rows = (max(int(number / max(surplus, 1.0)), 1) for number in (wide, high))
+    shape = np.array([min(columns, _MOST_CELLS // rows), min(rows, _MOST_CELLS // columns)])
     return np.maximum(extent / shape, 1e-9) * (1.0 + 1e-9), shape
 
 

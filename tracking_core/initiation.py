@@ -103,8 +103,11 @@ def two_point(
     prior = share_of_new(density.existence, np.asarray(evidence), seeds.free) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]
     keep = (existence >= least_existence).nonzero()[0]
-    first, second = take(seeds, old[keep]), take(fresh, new[keep])
-    return _starts(first, second, take_rows(step, keep), dt[keep], existence[keep], new[keep])
+    return _starts(
+        take_rows(seeds.covariance, old[keep]), take_rows(fresh.covariance, new[keep]),
+        take_rows(fresh.position, new[keep]), take_rows(step, keep), dt[keep], existence[keep],
+        new[keep],
+    )  # fmt: skip
 
 
 def _within_reach(
@@ -134,12 +137,13 @@ def _within_reach(
 
 
 def _starts(
-    first: Seeds, second: Seeds, step: Floats, dt: Floats, existence: Floats, plot: Ints
-) -> Starts:
+    R0: Floats, R1: Floats, position: Floats, step: Floats, dt: Floats, existence: Floats,
+    plot: Ints,
+) -> Starts:  # fmt: skip
+    """Return the starts from pairs of plots with covariances R0, then R1 at `position`."""
     K, d = step.shape
-    R0, R1 = first.covariance, second.covariance
     mean, covariance = np.empty((K, d, 2)), np.empty((K, d, 2, d, 2))
-    mean[:, :, 0] = second.position
+    mean[:, :, 0] = position
     mean[:, :, 1] = step / dt[:, None]
     over_dt = R1 / dt[:, None, None]
     covariance[:, :, 0, :, 0] = R1

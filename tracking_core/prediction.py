@@ -13,7 +13,7 @@ from tracking_core.composition import Setup
 from tracking_core.gating import box_pairs
 from tracking_core.looks import inside_coverage, margins, next_looks
 from tracking_core.pairing import Gates, open_gates, thresholds
-from tracking_core.rows import take
+from tracking_core.rows import take, take_rows
 
 _GATES_APART = 2.0  # 3-sigma gates between a track and where its next gate may begin
 
@@ -76,7 +76,8 @@ def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]
     if abs(scan.coverage.sweep) < np.pi:
         return False, waiting
     motion = (*_level_motion(updated), updated.time, updated.gate_size[:, :2])
-    position, velocity, time, gate_size = (take(part, lives) for part in motion)
+    rows = lives.nonzero()[0]
+    position, velocity, time, gate_size = (take_rows(part, rows) for part in motion)
     looks = next_looks(position, velocity, time, scan.coverage)
     size = _GATES_APART * gate_size.max(axis=1, initial=0.0)
     margin = margins(position, size, scan.coverage)
