@@ -8,6 +8,7 @@ from pathlib import Path
 import runpy
 from typing import Any
 
+from hypothesis import HealthCheck, settings
 import pytest
 import setuptools
 
@@ -17,6 +18,13 @@ from tracking_tools.node_process import private_domain
 os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 os.environ['MPLBACKEND'] = 'Agg'
+
+# The same examples in every run, and no complaint of a machine that others use as well.
+settings.register_profile(
+    'fixed', derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.register_profile('new', settings.get_profile('fixed'), derandomize=False)
+settings.load_profile('fixed')
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

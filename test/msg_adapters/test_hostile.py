@@ -29,7 +29,7 @@ ROWS = 20_000
 GROWTH = 1.02  # of memory from a tenth of the way to the end: caches of Python and numpy
 anything = st.floats(allow_nan=True, allow_infinity=True, width=64)
 column = st.lists(anything, min_size=5, max_size=5).map(np.array)
-quick = settings(max_examples=100, deadline=None, derandomize=True)
+quick = settings(max_examples=100)
 
 
 @pytest.mark.parametrize(

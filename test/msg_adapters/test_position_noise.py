@@ -101,7 +101,7 @@ def test_track_is_as_sure_as_the_poses_say():
     assert 9.0 < covariance[0, 0, 0] / covariance[0, 2, 2] < 20.0  # 16 without process noise
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.lists(st.floats(), min_size=9, max_size=9))
 def test_any_numbers_give_a_covariance_or_none(values):
     """Whatever a message holds: positive definite where it is told, and no warning."""

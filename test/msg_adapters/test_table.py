@@ -125,7 +125,7 @@ FIELDS = st.builds(
 )  # fmt: skip
 
 
-@settings(max_examples=500, deadline=None, derandomize=True)
+@settings(max_examples=500)
 @given(
     height=st.one_of(st.just(1), NUMBERS), width=NUMBERS, point_step=NUMBERS, row_step=NUMBERS,
     fields=st.lists(FIELDS, max_size=4), size=st.integers(0, 400), is_bigendian=st.booleans(),

@@ -56,7 +56,7 @@ def test_associate_sums_to_one(
 
 
 @every_method
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     seed=strategies.integers(0, 2**32 - 1),
     tracks=strategies.integers(0, 12),

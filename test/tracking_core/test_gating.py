@@ -17,7 +17,7 @@ def brute_force(centre, half_size, plots):
     return np.nonzero((gap <= half_size[:, None]).all(axis=2))
 
 
-@settings(deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(
     seed=strategies.integers(0, 2**32 - 1),
     tracks=strategies.integers(0, 30),

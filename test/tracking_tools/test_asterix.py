@@ -92,7 +92,7 @@ def test_block_of_empty_records_is_bounded():
     assert counts.total() == MOST + 1
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.binary(max_size=200), st.integers(0, 2**32 - 1))
 def test_any_bytes_are_read_without_an_error(data, seed):
     """Noise, noise behind a valid header, and a good block with bytes changed."""

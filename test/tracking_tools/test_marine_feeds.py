@@ -126,7 +126,7 @@ def test_ais_without_a_position_is_counted():
     assert counts == {'without a position': 1, 'another message': 1}
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.binary(max_size=100), st.text('!$*,0123456789ABTMVDLRAI.', max_size=90))
 def test_any_bytes_are_read_without_an_error(data, text):
     """Noise, and noise with the letters and a valid checksum of a sentence."""
