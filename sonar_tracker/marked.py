@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -45,10 +46,14 @@ class Marked:
 
     def move_sensor(self, mixture: Mixture, sensor: Floats) -> Mixture:
         """Return the plane with the sensor at x, y, vx, vy (T, 4)."""
-        if not isinstance(self.estimator, SeesFromSensor):
+        if self._moving is None:
             return mixture
-        moved = self.estimator.move_sensor(_without(mixture), sensor)
+        moved = self._moving.move_sensor(_without(mixture), sensor)
         return _with(moved, mixture.memory[:, -_COLUMNS:])
+
+    @cached_property
+    def _moving(self) -> SeesFromSensor | None:
+        return self.estimator if isinstance(self.estimator, SeesFromSensor) else None
 
     def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
         """Compare the pairs of the tracks (P,) with the predicted plane."""

@@ -12,7 +12,7 @@ from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, State, T
 from tracking_core.common_plots import places_of
 from tracking_core.composition import Density, Setup
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
-from tracking_core.linalg import symmetrise
+from tracking_core.linalg import inverse, symmetrise
 from tracking_core.resolution import Resolution, within_limit
 from tracking_core.rows import concatenate, take
 from tracking_core.update import Look
@@ -89,7 +89,7 @@ def with_speed_prior(starts: Starts, sd: float) -> Starts:
     K, d, _ = starts.mean.shape
     P = starts.covariance.reshape(K, 2 * d, 2 * d)
     cross = P[:, :, 1::2]
-    gain = cross @ np.linalg.inv(P[:, 1::2, 1::2] + sd**2 * np.eye(d))
+    gain = cross @ inverse(P[:, 1::2, 1::2] + sd**2 * np.eye(d))[0]
     mean = starts.mean - (gain @ starts.mean[:, :, 1:]).reshape(K, d, 2)
     covariance = symmetrise(P - gain @ np.swapaxes(cross, 1, 2))
     return replace(starts, mean=mean, covariance=covariance.reshape(K, d, 2, d, 2))

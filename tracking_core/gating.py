@@ -76,13 +76,13 @@ def sector_pairs(
     if len(centre) == 0 or M == 0:
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
     angle, half = wrap_angle(plots[:, 0]), np.minimum(half_size[:, 0], np.pi * (1.0 - 1e-12))
-    order = np.argsort(angle, kind='stable')[: np.isfinite(angle).sum()]  # NaN comes last
+    order = angle.argsort(kind='stable')[: np.count_nonzero(np.isfinite(angle))]  # NaN is last
     turn = np.array([-2.0, 0.0, 2.0])[:, None] * np.pi
     around, middle = (angle[order] + turn).reshape(-1), wrap_angle(centre[:, 0])
-    first = np.searchsorted(around, middle - half, 'left')
-    count = np.searchsorted(around, middle + half, 'right') - first
-    count[np.cumsum(count) > most] = 0
-    track = np.repeat(np.arange(len(centre)), count)
+    first = around.searchsorted(middle - half, 'left')
+    count = around.searchsorted(middle + half, 'right') - first
+    count[count.cumsum() > most] = 0
+    track = np.arange(len(centre)).repeat(count)
     place = _runs(first, count)
     return _in_order(track, order[place % max(len(order), 1)], M)
 

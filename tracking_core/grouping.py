@@ -32,7 +32,7 @@ class Groups:
 class Links:
     """Pairs of tracks that may be one."""
 
-    first: Ints  # (L,)
+    first: Ints  # (L,) ascending
     second: Ints  # (L,) above `first`
     chance: Floats  # (L,) that they are, if both exist, in (0, 1)
 
@@ -98,10 +98,11 @@ def _neighbours(links: Links, tracks: int) -> tuple[Links, Ints]:
 
 
 def _spanning_tree(links: Links, tracks: int) -> Links:
-    ends = (links.first.astype(np.int32), links.second.astype(np.int32))  # all scipy 1.11 takes
-    cost = csr_array((1.0 - np.log(links.chance), ends), shape=(tracks, tracks))
-    tree = minimum_spanning_tree(cost).tocoo()
-    return Links(tree.row.astype(np.int64), tree.col.astype(np.int64), np.exp(1.0 - tree.data))
+    start = links.first.searchsorted(np.arange(tracks + 1)).astype(np.int32)  # for scipy 1.11
+    by_row = (1.0 - np.log(links.chance), links.second.astype(np.int32), start)
+    tree = minimum_spanning_tree(csr_array(by_row, shape=(tracks, tracks)))
+    first = np.arange(tracks).repeat(np.diff(tree.indptr))
+    return Links(first, tree.indices.astype(np.int64), np.exp(1.0 - tree.data))
 
 
 def _components(links: Links, tracks: int) -> Ints:
@@ -146,7 +147,7 @@ def _together(size: int, first: Ints, second: Ints, chance: Floats, label: Ints)
         b = (nodes == second[:, k, None]).argmax(axis=1)[:, None]
         near[group, at, a, b] |= holds[:, k]
         near[group, at, b, a] |= holds[:, k]
-    for _ in range(int(np.ceil(np.log2(size)))):
+    for _ in range((links - 1).bit_length()):  # each doubles how far one hears of another
         near = np.asarray((near[..., :, :, None] & near[..., None, :, :]).any(axis=-2))
     mask = (near << np.arange(size)).sum(axis=-1)  # (C, S, size): with whom each one is one
     leader = near.argmax(axis=-1) == np.arange(size)
