@@ -37,7 +37,7 @@ def test_tutorial_runs_from_top_to_bottom(
     assert len(blocks) >= 8
     said = subprocess.run(
         ['bash', '-euo', 'pipefail', '-c', '\n'.join(blocks)], cwd=tmp_path, env=environment,
-        capture_output=True, text=True, check=False, timeout=240,
+        capture_output=True, text=True, check=False, timeout=600,
     )  # fmt: skip
     assert said.returncode == 0, said.stdout + said.stderr
     figures = json.loads((tmp_path / 'output' / 'mine.json').read_text())
