@@ -69,7 +69,10 @@ def start_tracks(
     age = scan.coverage.end_time - state.seeds.time
     young = take(state.seeds, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
     left = replace(fresh, free=fresh.free * (1.0 - used))
-    born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)
+    if len(starts.plot):
+        born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)
+    else:
+        born = take(seen.tracks, slice(0))
     return born, concatenate(young, left), float(used.sum())
 
 

@@ -96,6 +96,8 @@ def two_point(
     seeds = take(seeds, most * alone >= least_existence * (1.0 - most + most * alone))
 
     old, new, step, dt = _within_reach(seeds, fresh, 0.5 * interval, config, is_angular)
+    if len(old) == 0:
+        return Starts.none(step.shape[1])
     looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
     likely = odds.of_pair(take(seeds, old), take(fresh, new), step, dt)
     likely = likely * (1.0 - detection_probability) ** looks_between

@@ -10,6 +10,8 @@ import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints
 
+MANY = 200  # tracks from which a sum by columns is the faster one
+
 
 def wrap_angle(angle: Floats) -> Floats:
     """Return the angle in [-pi, pi) [rad]."""
@@ -117,7 +119,11 @@ def sum_by_track(rows: Floats, track: Ints, tracks: int) -> Floats:
     if rows.ndim == 1:
         return np.asarray(np.bincount(track, rows, tracks), np.float64)
     result = np.zeros((tracks, *rows.shape[1:]), order='F')
-    if len(track):
+    if tracks > MANY + len(track) // 3 and len(track):  # reduceat is dear by track
+        columns = result.T.reshape(-1, tracks), rows.T.reshape(-1, len(track))
+        for total, values in zip(*columns, strict=True):
+            total[:] = np.bincount(track, values, tracks)
+    elif len(track):
         starts = first_rows(track)
         result[track[starts]] = np.add.reduceat(rows, starts, axis=0)
     return result

@@ -61,6 +61,17 @@ def test_wrap_angle_is_half_open() -> None:
     assert_allclose(wrap_angle(angle), [-np.pi, -np.pi, -np.pi, 0.5], atol=1e-12)
 
 
+@pytest.mark.parametrize('tracks', [7, 400, 2000])
+def test_sum_by_track_equals_adding_row_by_row(tracks: int) -> None:
+    """Oracle: one addition after the other; few tracks and many are summed in different ways."""
+    rng = np.random.default_rng(tracks)
+    track, rows = np.sort(rng.integers(0, tracks, 300)), rng.random((300, 2, 3))
+    expected = np.zeros((tracks, 2, 3))
+    np.add.at(expected, track, rows)
+    # Of up to 43 numbers below 1 in another order.
+    assert_allclose(sum_by_track(rows, track, tracks), expected, rtol=0.0, atol=1e-12)
+
+
 def test_sum_by_track_leaves_out_nobody() -> None:
     """Tracks without rows have zero; no rows at all is legal."""
     values = np.arange(8.0).reshape(4, 2)
