@@ -4,7 +4,6 @@
 
 from itertools import count
 import socket
-import subprocess
 import sys
 import time
 
@@ -14,6 +13,7 @@ from msg_adapters.message_types import seconds
 from msg_adapters.table import to_columns
 from tracking_tools.feeds.clock import DAY
 from tracking_tools.feeds.sources import open_udp
+from tracking_tools.testing import NodeProcess
 
 generated = pytest.importorskip('asterix.generated')
 
@@ -28,19 +28,24 @@ def datagram(time_of_day, rho):
     return kind.create([kind.cv_record.create(items)]).unparse().to_bytes()
 
 
-def test_udp_feed_becomes_tracks(start_node, probe):
-    """Datagrams on the loopback, hostile ones among them, to tracks of the radar node."""
+@pytest.fixture
+def feed(ros_domain_id, tmp_path):
+    """Start the feed; return its process and its port."""
     with open_udp('udp://127.0.0.1:0') as free:
         port = free.getsockname()[1]
-    start_node('scan.assembly:=snapshot')
     command = [sys.executable, '-m', 'tracking_tools.asterix', f'udp://127.0.0.1:{port}']
-    with (
-        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as feed,
-        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as radar,
-    ):
-        start = time.time() % DAY
+    with NodeProcess(command, ros_domain_id, tmp_path / 'feed.log') as process:
+        yield process, port
 
-        steps = count()
+
+def test_udp_feed_becomes_tracks(feed, start_node, probe):
+    """Datagrams on the loopback, hostile ones among them, to tracks of the radar node."""
+    process, port = feed
+    start_node('scan.assembly:=snapshot')
+    probe.wait_for_tracker()
+    probe.peer.wait_for_node('/asterix_feed', deadline=60.0)
+    start, steps = time.time() % DAY, count()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as radar:
 
         def is_tracked():
             flown = 0.25 * next(steps)
@@ -51,11 +56,9 @@ def test_udp_feed_becomes_tracks(start_node, probe):
             return any((table['status'] == 1).any() for table in tables)
 
         probe.spin_until(is_tracked, 'a confirmed track')
-        feed.terminate()
-        said, _ = feed.communicate(timeout=20.0)
-    assert feed.returncode == 0
-    assert 'Traceback' not in said.decode()
-    assert 'truncated or of wrong length' in said.decode()
+    assert process.stop() == 0
+    assert 'Traceback' not in process.log
+    assert 'truncated or of wrong length' in process.log
     msg = probe.tables[-1]
     track, flown = to_columns(msg, 9), seconds(msg.header.stamp) % DAY - start
     assert abs(track['x'][0] - (18520.0 + 18.52 * flown)) < 100.0  # plots have 1/256 NM

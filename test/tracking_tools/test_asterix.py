@@ -4,6 +4,9 @@
 
 from collections import Counter
 from datetime import datetime, timezone
+from pathlib import Path
+import subprocess
+import sys
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -18,6 +21,7 @@ from tracking_tools.bags import open_bag
 from tracking_tools.feeds.clock import DAY, DayClock
 from tracking_tools.feeds.feed import Feed
 
+ROOT = Path(__file__).parents[2]
 generated = pytest.importorskip('asterix.generated')
 PLOTS, SERVICE = generated.Cat_048_1_32, generated.Cat_034_1_29
 RADAR = (('SAC', 25), ('SIC', 201))
@@ -148,3 +152,14 @@ def test_what_cannot_be_read_is_told(arguments, words, capsys):
     """No traceback."""
     assert main(arguments) == 1
     assert words in capsys.readouterr().err
+
+
+def test_decoder_is_loaded_before_anybody_is_heard():
+    """It takes seconds, in which the datagrams of a radar would be lost."""
+    program = (
+        'import sys; from tracking_tools.asterix.__main__ import main; '
+        'from tracking_tools.feeds import command; '
+        "command.open_udp = lambda _: sys.exit('asterix.generated' not in sys.modules); "
+        "main(['udp://127.0.0.1:1'])"
+    )
+    assert subprocess.run([sys.executable, '-c', program], cwd=ROOT, check=False).returncode == 0

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import sys
 from typing import Any
 
-from tracking_tools.asterix.blocks import blocks_of_file, is_available, read_reports
+from tracking_tools.asterix.blocks import blocks_of_file, is_available, loaded_reader
 from tracking_tools.feeds.command import Format, run
 
 
@@ -35,7 +35,7 @@ ASTERIX = Format(
     name='asterix',
     library='libasterix',
     is_available=is_available,
-    reader=lambda _: read_reports,
+    reader=lambda _: loaded_reader(),
     chunks=blocks_of_file,
     add_options=_options,
 )

@@ -10,7 +10,7 @@ counted. Times are those of day, as sent.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
@@ -80,6 +80,12 @@ def is_available() -> bool:
         return find_spec('asterix.generated') is not None
     except ModuleNotFoundError:
         return False
+
+
+def loaded_reader() -> Callable[[bytes, Counter[str]], list[Report]]:
+    """Return `read_reports` with its library loaded, so that the first datagram need not wait."""
+    _library()
+    return read_reports
 
 
 @cache
