@@ -171,7 +171,8 @@ def _scene(result: Result, known: list[str]) -> str:
     origin = f' From origin {known.index(result.made) + 1}.' if len(known) > 1 else ''
     return (
         f'{result.contacts:.0f} contacts and {result.plots:.0f} plots a scan, '
-        f'{row.wanted} scans, {runs} runs.{origin}\n\n{scene_table(result)}'
+        f'{row.wanted} scans, {runs} run{"s" * (result.wanted > 1)}.{origin}\n\n'
+        f'{scene_table(result)}'
     )
 
 
