@@ -24,6 +24,7 @@ from msg_adapters.parameter_blocks import foreign_files
 from msg_adapters.parameters import BadParameter
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
+LOOK = 1.0  # between two looks at whether the context has ended [s]
 DEPTH = 50  # messages of an input that may wait
 NANOSECONDS = 1_000_000_000
 
@@ -83,6 +84,9 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
 def _spin(node: Any, stops: list[int]) -> None:
     executor = SingleThreadedExecutor()
     executor.add_node(node)
+    # Of a signal rclpy wakes the executor first and then ends its context, so that one without
+    # timers could sleep on for ever.
+    steady_timer(node, LOOK, _nothing)
     try:
         if not stops:
             executor.spin()
@@ -90,6 +94,10 @@ def _spin(node: Any, stops: list[int]) -> None:
         _ignore_stops()
         executor.shutdown()
         node.destroy_node()
+
+
+def _nothing() -> None:
+    """Only wake."""
 
 
 def _ignore_stops() -> None:

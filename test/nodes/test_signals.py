@@ -9,13 +9,33 @@ habits hold, a traceback after SIGINT and death by SIGTERM.
 
 from pathlib import Path
 from signal import SIGINT, SIGTERM
+import sys
 import time
 
 import numpy as np
 import pytest
 
+from tracking_tools.testing import NodeProcess
+
+ROOT = Path(__file__).parents[2]
 START = 1.5  # s after our first line, when a node is up unless the machine is very busy
 BURST = 0.15  # s from the first to the last signal
+
+
+# rclpy wakes the executor first, which may sleep again before its context is shut down.
+UNTOLD = """
+import sys
+from threading import Timer
+from msg_adapters.node import run
+from radar_tracker import live
+
+def make_node():
+    node = live.make_node()
+    Timer(1.0, node.context.handle.shutdown).start()
+    return node
+
+sys.exit(run(make_node))
+"""
 
 
 @pytest.fixture(params=['radar', 'sonar'])
@@ -61,6 +81,14 @@ def test_signals_while_running_end_the_node_with_zero(start_node, probe, signals
     node = start_node()
     probe.meet()
     assert stop(node, signals, np.zeros(len(signals))) == 0
+    assert 'Traceback' not in node.log
+
+
+def test_end_that_nobody_told_the_executor_ends_an_idle_node(ros_domain_id, tmp_path):
+    """A node that is not configured has no timers of its own that would wake it."""
+    command = [sys.executable, '-c', UNTOLD, '--ros-args', '-p', 'autostart:=false']
+    with NodeProcess(command, ros_domain_id, tmp_path / 'log', folder=ROOT) as node:
+        assert node.wait() == 0
     assert 'Traceback' not in node.log
 
 
