@@ -34,7 +34,7 @@ from tracking_core.association.jpda import jpda
 from tracking_core.config import with_values
 
 SIZES = (10, 50, 100, 200, 1000, 10_000)
-WARM_UP, MEASURED = 24, 12  # turns, the denser clutter comes a little before
+WARM_UP, MEASURED = 24, 36  # turns, the denser clutter comes a little before
 LIMITS = {200: 5.0, 1000: 20.0, 10_000: 200.0}  # [ms]
 STEPS = {
     'antenna': ('radar_tracker.antenna', 'Antenna.follow'),

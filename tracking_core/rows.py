@@ -36,6 +36,11 @@ def concatenate(first: Batch, second: Batch) -> Batch:
     return cast('Batch', _join(second, first, _append))
 
 
+def take_of_both(first: Batch, second: Batch, rows: NDArray[Any]) -> Batch:
+    """Return these rows of two batches, where those of the second count on from the first."""
+    return cast('Batch', _join(second, first, lambda new, old: take_rows(_append(new, old), rows)))
+
+
 def put(batch: Batch, rows: NDArray[Any], part: Batch) -> Batch:
     """Return the batch with these rows replaced by the rows of `part`."""
 

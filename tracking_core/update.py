@@ -22,7 +22,7 @@ from tracking_core.linalg import is_positive_definite, sum_by_track
 from tracking_core.looks import LONGEST_WAIT
 from tracking_core.pairing import Gated, pair, thresholds
 from tracking_core.prediction import longest_lag, next_passes, predict_tracks, Predicted
-from tracking_core.rows import concatenate, take
+from tracking_core.rows import take, take_of_both
 from tracking_core.sharing import Share, share_plots
 from tracking_core.unresolved import add_common
 
@@ -122,9 +122,9 @@ def _merge(tracks: Tracks, row: Ints, updated: Tracks, kept: Bools, worked_on: B
     if worked_on.all():
         return take(updated, kept)
     waiting = (~worked_on).nonzero()[0]
-    source = np.empty(len(tracks), np.int64)
-    source[row], source[waiting] = np.arange(len(row)), len(row) + np.arange(len(waiting))
-    return take(concatenate(updated, take(tracks, waiting)), source[kept])
+    source = np.empty(len(tracks), np.int64)  # first the rows of `updated`, then those of `tracks`
+    source[row], source[waiting] = np.arange(len(row)), len(row) + waiting
+    return take_of_both(updated, tracks, source[kept])
 
 
 def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:
