@@ -3,7 +3,9 @@
 """The live radar node when plots come faster than it can use them."""
 
 import numpy as np
+import pytest
 
+from benchmarks.overload import HEAD, overload
 from msg_adapters.message_types import seconds
 from tracking_tools.testing import confirmed_ids
 
@@ -75,3 +77,15 @@ def test_limits_of_tracks_and_plots_hold(start_node, probe):
     probe.spin_until(lambda: probe.diagnosed('plots messages refused') == '1', 'a refusal')
     assert confirmed_ids(probe.scan()) == before
     assert any('close to max_tracks' in m.status[0].message for m in probe.diagnostics)
+
+
+@pytest.mark.soak
+def test_age_of_tracks_is_bounded_at_ten_times_the_plots_a_node_can_use(tmp_path):
+    """For three minutes; the figures of docs/reliability.md."""
+    outcome = overload(1.0, 180.0, tmp_path / 'node.log')
+    print(f'\n{HEAD}\n{outcome.row("1")}')
+    assert outcome.rate > 5.0 * outcome.capacity  # else the sender was the slow one
+    assert np.percentile(outcome.ages, 95) < 2.0  # max_delay and a step
+    assert outcome.shed + outcome.lost > 0.5
+    first, second = outcome.growth
+    assert second < 0.5 * first  # buffers of the transport fill, and stay
