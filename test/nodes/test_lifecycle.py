@@ -10,7 +10,7 @@ from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from nav_msgs.msg import Odometry
 import pytest
-from visualization_msgs.msg import MarkerArray
+from visualization_msgs.msg import Marker, MarkerArray
 
 from tracking_tools.testing import confirmed_ids, NodeProcess
 
@@ -83,6 +83,11 @@ def test_lifecycle_steps_from_autostart_false_to_shutdown(start_node, probe, sen
     assert node.wait() == 0
 
 
+def erases(msg):
+    """Return whether these are markers that clear the screen."""
+    return any(marker.action == Marker.DELETEALL for marker in getattr(msg, 'markers', []))
+
+
 def test_tracks_are_kept_while_inactive_and_publishers_silent(start_node, probe, sensor):
     """What comes meanwhile is ignored, not lost; the same tracks go on afterwards."""
     start_node('markers.rate:=100.0')
@@ -99,6 +104,7 @@ def test_tracks_are_kept_while_inactive_and_publishers_silent(start_node, probe,
     probe.spin_until(
         lambda: 'not active' in {msg.status[0].message for msg in probe.diagnostics}, 'diagnostics'
     )
+    probe.spin_until(lambda: any(map(erases, others)), 'erased markers')  # the last of all
     heard = len(probe.tables), len(others)
     for _ in range(2):
         probe.stamp += probe.sensor.period
