@@ -3,6 +3,7 @@
 """Whatever comes on an input is used or refused, and a track that is fed stays."""
 
 from collections import Counter
+import tracemalloc
 from types import SimpleNamespace
 import warnings
 
@@ -74,6 +75,22 @@ def test_spoilt_message_is_read_or_refused(types, seed):
             continue
         assert np.isfinite(plots.time).all()
         assert (np.abs(plots.time - plots.stamp) <= 60.0).all()
+
+
+@pytest.mark.parametrize('sensor', HEALTHY)
+def test_session_under_siege_holds_no_more_with_time(sensor):
+    """Resident memory follows the largest message so far; what Python holds does not grow."""
+    siege = Siege(sensor, np.random.default_rng(1))
+    besiege(siege, 50)
+    tracemalloc.start()
+    try:
+        besiege(siege, 100)
+        before, _ = tracemalloc.get_traced_memory()
+        besiege(siege, 200)
+        after, _ = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert after < before + 300_000
 
 
 @pytest.mark.soak
