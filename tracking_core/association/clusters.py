@@ -85,6 +85,15 @@ class Contest:
         cluster = renumber(self.cluster[pairs], self.tracks)[1]
         return Contest(track, plot, self.gain[pairs], cluster, len(rows), len(columns))
 
+    def swap(self) -> tuple[Ints, Contest]:
+        """Return the contest with the parts of tracks and plots swapped, and its pairs in ours."""
+        order = self.plot.argsort(kind='stable')
+        swapped = Contest(
+            self.plot[order], self.track[order], self.gain[order], self.cluster[order],
+            self.plots, self.tracks,
+        )  # fmt: skip
+        return order, swapped
+
     def track_cluster(self) -> Ints:
         """Return the cluster of each track."""
         return _spread(self.cluster, self.track, self.tracks)
