@@ -35,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
               file=sys.stderr)  # fmt: skip
     entrants = {name: one for name, one in entrants.items() if one.is_installed}
     entries = {
-        name: Entry(one.make, min(one.scans, chosen.scans), min(one.runs, chosen.runs))
+        name: Entry(one.make, min(one.scans, chosen.scans), chosen.runs or one.runs)
         for name, one in MENU.items()
         if name in (chosen.only or MENU)
     }
@@ -84,7 +84,7 @@ def _parser() -> argparse.ArgumentParser:
     add('--only', nargs='*', choices=MENU, metavar='SCENE', help=f'of {", ".join(MENU)}')
     add('--peers', nargs='*', choices=ENTRANTS, metavar='NAME', help=f'of {", ".join(ENTRANTS)}')
     add('--scans', type=int, default=10_000, help='at most, of each run')
-    add('--runs', type=int, default=10_000, help='at most, of each scene')
+    add('--runs', type=int, help='of each scene, instead of its own number')
     add('--limit', type=float, default=120.0, metavar='S',
         help='CPU after which a tracker gets no more scans of a run (default 120)')  # fmt: skip
     add('--budget', type=float, default=12.0, metavar='MIN',
