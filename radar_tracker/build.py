@@ -7,7 +7,7 @@ from __future__ import annotations
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.planes import build_planes
 from radar_tracker.sensor import Radar
-from tracking_core.association import ASSOCIATORS
+from tracking_core.association import ASSOCIATORS, DECIDING
 from tracking_core.composition import Setup
 from tracking_core.lifecycle import Lifecycle, LIFECYCLES
 from tracking_core.resolution import Resolution
@@ -15,7 +15,6 @@ from tracking_core.resolution import Resolution
 __all__ = ['build_planes', 'build_setup']
 
 _SECONDS_PER_HOUR = 3600.0
-_SOFT = ('jpda', 'pda')
 _START_SHARE = 0.5  # a new track may be this much less likely than one that is dropped
 
 
@@ -25,7 +24,7 @@ def build_setup(config: RadarTrackerConfig, radar: Radar) -> Setup:
         sensor=radar,
         planes=build_planes(config, radar.dimensions),
         associate=ASSOCIATORS[config.association],
-        is_soft=config.association in _SOFT,
+        is_soft=config.association not in DECIDING,
         lifecycle=_lifecycle(config),
         initiation=config.initiation,
         gate_probability=config.gate.probability,

@@ -9,7 +9,7 @@ import numpy as np
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.marked import Marked
 from sonar_tracker.sensor import Sonar
-from tracking_core.association import ASSOCIATORS
+from tracking_core.association import ASSOCIATORS, DECIDING
 from tracking_core.composition import Plane, Setup
 from tracking_core.estimators import (
     DecoupledKalman,
@@ -25,7 +25,6 @@ from tracking_core.motion import RandomWalk
 from tracking_core.resolution import Resolution
 
 _SECONDS_PER_HOUR = 3600.0
-_SOFT = ('jpda', 'pda')
 _START_SHARE = 0.5  # a new track may be this much less likely than one that is dropped
 
 
@@ -36,7 +35,7 @@ def build_setup(config: SonarTrackerConfig, sonar: Sonar) -> Setup:
         sensor=sonar,
         planes=(Plane(_with_marks(build_estimator(config), config), (0,)),),
         associate=ASSOCIATORS[config.association],
-        is_soft=config.association in _SOFT,
+        is_soft=config.association not in DECIDING,
         lifecycle=_lifecycle(config),
         initiation=InitiationConfig(
             method=start.method, speed_max=start.rate_max, speed_sd=start.rate_sd,

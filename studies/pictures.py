@@ -16,7 +16,9 @@ from PIL import Image
 
 from tracking_core.batches import Floats
 
-COLOURS = ('#1f6fb4', '#d1495b', '#3a9d5d', '#8e5ea2', '#e0902b', '#4d5966', '#17a2a2')
+COLOURS = (
+    '#1f6fb4', '#d1495b', '#3a9d5d', '#8e5ea2', '#e0902b', '#4d5966', '#17a2a2', '#7a5c3e',
+)  # fmt: skip
 STYLE = {'font.size': 9, 'axes.grid': True, 'grid.color': '#e4e8ee', 'axes.axisbelow': True}
 
 

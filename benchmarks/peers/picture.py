@@ -13,7 +13,7 @@ from benchmarks.peers.entrants import OURS, VARIANTS
 from benchmarks.peers.report import growing, Results
 from studies.pictures import COLOURS, panels, save
 
-MARKS = ('o', 's', '^', 'v', 'D', 'P', 'X')
+MARKS = ('o', 's', '^', 'v', 'D', 'P', 'X', '<')
 
 
 def draw(results: Results, path: Path) -> str:

@@ -4,19 +4,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import sys
 
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 import pytest
 
-from tracking_core.association import exact, global_nearest, jpda
+from tracking_core.association import (
+    Associator,
+    exact,
+    global_nearest,
+    jpda,
+    jpda_star,
+    permutations,
+)
 from tracking_core.association.belief import propagate
 from tracking_core.association.clusters import Contest
 from tracking_core.association.sums import log_others, others
 from tracking_core.batches import Floats, Ints
 
 Scene = tuple[Ints, Ints, Floats, Floats, int]
+Events = Callable[[Scene], tuple[Floats, Ints]]
 
 
 def make_scene(seed: int, tracks: int, plots: int, density: float, spread: float) -> Scene:
@@ -48,9 +57,21 @@ def enumerate_events(scene: Scene) -> tuple[Floats, Ints]:
     return weight, choice
 
 
-def marginals(scene: Scene) -> tuple[Floats, Floats]:
-    """Return the probabilities of pairs (P,) and misses (T,) by enumeration."""
+def best_permutations(scene: Scene) -> tuple[Floats, Ints]:
+    """Return of the events with the same tracks and plots in pairs only the best."""
     weight, choice = enumerate_events(scene)
+    plot = np.append(scene[1], -1)
+    best = {
+        (tuple(row < 0), tuple(np.sort(plot[row]))): event  # the last of those has the most weight
+        for event, row in sorted(enumerate(choice), key=lambda item: weight[item[0]])
+    }
+    kept = list(best.values())
+    return weight[kept], choice[kept]
+
+
+def marginals(scene: Scene, events: Events = enumerate_events) -> tuple[Floats, Floats]:
+    """Return the probabilities of pairs (P,) and misses (T,) by enumeration."""
+    weight, choice = events(scene)
     event = np.exp(weight - weight.max())
     event /= event.sum()
     pair, miss = np.zeros(len(scene[0])), np.zeros(len(scene[3]))
@@ -61,10 +82,12 @@ def marginals(scene: Scene) -> tuple[Floats, Floats]:
     return pair, miss
 
 
-def assert_exact(scene: Scene) -> None:
-    """Check jpda against enumeration; 1e-9 is a thousand times what rounding costs."""
-    pair, miss = marginals(scene)
-    result = jpda(*scene)
+def assert_exact(
+    scene: Scene, associate: Associator = jpda, events: Events = enumerate_events
+) -> None:
+    """Check against enumeration; 1e-9 is a thousand times what rounding costs."""
+    pair, miss = marginals(scene, events)
+    result = associate(*scene)
     assert not result.approximate.any()
     assert_allclose(result.probability, pair, rtol=0.0, atol=1e-9)
     assert_allclose(result.miss, miss, rtol=0.0, atol=1e-9)
@@ -164,6 +187,57 @@ def test_others_do_not_cancel() -> None:
     rest, total = log_others(np.log(weight), group, 2)
     assert_allclose(rest, np.log(expected), rtol=1e-14)
     assert_allclose(total, np.log([1e30, 1e25]), rtol=1e-14)
+
+
+@pytest.mark.parametrize('plots', range(1, 7))
+@pytest.mark.parametrize('tracks', range(1, 6))
+def test_jpda_star_equals_enumeration(tracks: int, plots: int) -> None:
+    """Every size up to 5 x 6, dense and sparse, pairs that hang on by one plot among them."""
+    for spread in (1.0, 20.0, 300.0, 1000.0):
+        for density in (0.3, 0.6, 1.0):
+            scene = make_scene(tracks + 10 * plots, tracks, plots, density, spread)
+            assert_exact(scene, jpda_star, best_permutations)
+
+
+def test_jpda_star_equals_enumeration_on_large_clusters() -> None:
+    """Seven tracks on seven plots, and one plot and one track more that hang on to these."""
+    track, plot, log_weight, log_miss, _ = make_scene(5, 8, 8, 1.0, 3.0)
+    kept = (track < 7) & (plot < 7) | (track + plot == 7)
+    assert_exact((track[kept], plot[kept], log_weight[kept], log_miss, 8), jpda_star,
+                 best_permutations)  # fmt: skip
+
+
+def test_jpda_star_keeps_neighbours_apart() -> None:
+    """Two tracks that could as well trade their plots: JPDA halves these, JPDA* does not."""
+    track, plot = np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1])
+    scene = (track, plot, np.array([9.0, 8.9, 8.9, 9.0]), np.zeros(2), 2)
+    assert_allclose(jpda(*scene).probability, [0.55, 0.45, 0.45, 0.55], atol=0.001)
+    assert_allclose(jpda_star(*scene).probability, [1.0, 0.0, 0.0, 1.0], atol=0.001)
+
+
+def test_jpda_star_is_jpda_where_nobody_can_trade() -> None:
+    """A chain of tracks, each sharing a plot with the next, has no permutations."""
+    track, plot = np.repeat(np.arange(7), 2), np.repeat(np.arange(8), 2)[1:-1]
+    scene = (track, plot, np.linspace(-3.0, 3.0, 14), -np.ones(7), 8)
+    assert_array_equal(jpda_star(*scene).probability, jpda(*scene).probability)
+
+
+def test_jpda_star_says_where_it_is_jpda() -> None:
+    """Nine tracks on nine plots get the weights of JPDA and are flagged, eight on eight not."""
+    scene = make_scene(1, 9, 9, 1.0, 3.0)
+    assert jpda_star(*scene).approximate.all()
+    assert_array_equal(jpda_star(*scene).probability, jpda(*scene).probability)
+    assert not jpda_star(*make_scene(1, 8, 8, 1.0, 3.0)).approximate.any()
+
+
+def test_jpda_star_is_the_same_in_small_batches(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Splitting work for memory, or not merging small batches, changes nothing."""
+    scene = make_scene(8, 60, 70, 0.02, 5.0)
+    whole = jpda_star(*scene)
+    monkeypatch.setattr(permutations, 'MEMORY', 1)
+    monkeypatch.setattr(permutations, 'PADDING', 0)
+    assert not whole.approximate.any()
+    assert_allclose(jpda_star(*scene).probability, whole.probability, atol=1e-13)
 
 
 @pytest.mark.parametrize('spread', [2.0, 30.0, 1000.0])

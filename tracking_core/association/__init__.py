@@ -4,7 +4,8 @@
 Which plot belongs to which track? The menu of association methods.
 
 All of them take the gated pairs and say how the plots are shared among the tracks. Read
-``pda.py`` for a track alone, then ``jpda.py`` for tracks that compete.
+``pda.py`` for a track alone, then ``jpda.py`` for tracks that compete, ``jpda_star.py`` for such
+that fly side by side.
 """
 
 from __future__ import annotations
@@ -14,11 +15,22 @@ from typing import Protocol
 from tracking_core.association.clusters import clusters
 from tracking_core.association.global_nearest import global_nearest
 from tracking_core.association.jpda import jpda
+from tracking_core.association.jpda_star import jpda_star
 from tracking_core.association.nearest import nearest
 from tracking_core.association.pda import pda
 from tracking_core.batches import Association, Floats, Ints
 
-__all__ = ['ASSOCIATORS', 'Associator', 'clusters', 'global_nearest', 'jpda', 'nearest', 'pda']
+__all__ = [
+    'ASSOCIATORS',
+    'DECIDING',
+    'Associator',
+    'clusters',
+    'global_nearest',
+    'jpda',
+    'jpda_star',
+    'nearest',
+    'pda',
+]
 
 
 class Associator(Protocol):
@@ -58,7 +70,9 @@ class Associator(Protocol):
 
 ASSOCIATORS: dict[str, Associator] = {
     'jpda': jpda,
+    'jpda_star': jpda_star,
     'pda': pda,
     'global_nearest': global_nearest,
     'nearest': nearest,
 }
+DECIDING = ('global_nearest', 'nearest')  # the others share a plot among tracks
