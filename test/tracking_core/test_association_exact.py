@@ -13,6 +13,7 @@ import pytest
 
 from tracking_core.association import (
     Associator,
+    events,
     exact,
     global_nearest,
     jpda,
@@ -93,6 +94,13 @@ def assert_exact(
     assert_allclose(result.miss, miss, rtol=0.0, atol=1e-9)
 
 
+@pytest.fixture(params=[events.FEW, 0], ids=['written down', 'in steps'])
+def few(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let small clusters be summed event by event, then in steps as larger ones are."""
+    monkeypatch.setattr(events, 'FEW', request.param)
+
+
+@pytest.mark.usefixtures('few')
 @pytest.mark.parametrize('plots', range(1, 8))
 @pytest.mark.parametrize('tracks', range(1, 6))
 def test_jpda_equals_enumeration(tracks: int, plots: int) -> None:
@@ -119,6 +127,7 @@ def test_jpda_is_the_same_in_small_batches(monkeypatch: pytest.MonkeyPatch) -> N
     """Splitting work for memory, or not merging small batches, changes nothing."""
     scene = make_scene(8, 60, 70, 0.02, 5.0)
     whole = jpda(*scene)
+    monkeypatch.setattr(events, 'FEW', 0)
     monkeypatch.setattr(exact, 'MEMORY', 1)
     monkeypatch.setattr(exact, 'PADDING', 0)
     split = jpda(*scene)
@@ -189,6 +198,7 @@ def test_others_do_not_cancel() -> None:
     assert_allclose(total, np.log([1e30, 1e25]), rtol=1e-14)
 
 
+@pytest.mark.usefixtures('few')
 @pytest.mark.parametrize('plots', range(1, 7))
 @pytest.mark.parametrize('tracks', range(1, 6))
 def test_jpda_star_equals_enumeration(tracks: int, plots: int) -> None:
@@ -208,7 +218,7 @@ def test_jpda_star_equals_enumeration_on_large_clusters() -> None:
 
 
 def test_jpda_star_keeps_neighbours_apart() -> None:
-    """Two tracks that could as well trade their plots: JPDA halves these, JPDA* does not."""
+    """Two tracks that could as well trade their plots: JPDA shares them, JPDA* does not."""
     track, plot = np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1])
     scene = (track, plot, np.array([9.0, 8.9, 8.9, 9.0]), np.zeros(2), 2)
     assert_allclose(jpda(*scene).probability, [0.55, 0.45, 0.45, 0.55], atol=0.001)
@@ -234,6 +244,7 @@ def test_jpda_star_is_the_same_in_small_batches(monkeypatch: pytest.MonkeyPatch)
     """Splitting work for memory, or not merging small batches, changes nothing."""
     scene = make_scene(8, 60, 70, 0.02, 5.0)
     whole = jpda_star(*scene)
+    monkeypatch.setattr(events, 'FEW', 0)
     monkeypatch.setattr(permutations, 'MEMORY', 1)
     monkeypatch.setattr(permutations, 'PADDING', 0)
     assert not whole.approximate.any()

@@ -52,7 +52,7 @@ def test_with_values_sets_nested_parameters_and_keeps_the_rest() -> None:
         ({'sensor.range_sd': 'far'}, "SensorConfig.range_sd must be a number, got 'far'"),
         ({'sensor.range_sd': True}, 'SensorConfig.range_sd must be a number, got True'),
         ({'sensor.range_sd': float('nan')}, 'SensorConfig.range_sd must be in'),
-        ({'association': 'best'}, 'association must be one of jpda, pda'),
+        ({'association': 'best'}, 'association must be one of jpda, jpda_star, pda'),
         ({'association': 3}, 'association must be one of'),
         ({'motion.horizontal.sojourn_time': [10.0]}, 'one value per mode, got 2, 1 and 2'),
         ({'motion.horizontal.sojourn_time': [10.0, -1.0]}, 'sojourn_time must be in'),

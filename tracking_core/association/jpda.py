@@ -17,7 +17,9 @@ import numpy as np
 from tracking_core.association.belief import propagate
 from tracking_core.association.clusters import Contest
 from tracking_core.association.contention import share_jointly
+from tracking_core.association.events import are_few, sum_up_events
 from tracking_core.association.exact import marginalise
+from tracking_core.association.layout import lay_out
 from tracking_core.association.sums import choose, log_others
 from tracking_core.batches import Association, Bools, Floats, Ints
 
@@ -60,6 +62,9 @@ def jpda(
 
 def sum_up(contest: Contest, largest: int = LARGEST) -> tuple[Floats, Bools]:
     """Return the probability of each pair (P,), and which are approximate."""
+    layout = lay_out(contest)
+    if layout.rows.max() <= largest and are_few(layout):
+        return sum_up_events(layout, contest.gain), np.zeros(len(contest.gain), np.bool_)
     tracks, plots = np.bincount(contest.track_cluster()), np.bincount(contest.plot_cluster())
     few, many = np.minimum(tracks, plots), np.maximum(tracks, plots)
     two, other = tracks == 2, (plots == 2) & (tracks != 2)

@@ -15,7 +15,9 @@ import numpy as np
 
 from tracking_core.association.clusters import Contest
 from tracking_core.association.contention import share_jointly
+from tracking_core.association.events import are_few, sum_up_events
 from tracking_core.association.jpda import sum_up
+from tracking_core.association.layout import lay_out
 from tracking_core.association.permutations import comparisons, sum_up_best
 from tracking_core.association.sums import choose
 from tracking_core.batches import Association, Bools, Floats, Ints
@@ -48,6 +50,10 @@ def jpda_star(
 
 def _settle(contest: Contest) -> tuple[Floats, Bools]:
     """Return the probability of each pair (P,), and which are approximate."""
+    layout = lay_out(contest)
+    if are_few(layout):
+        probability = sum_up_events(layout, contest.gain, best_only=True)
+        return probability, np.zeros(len(contest.gain), np.bool_)
     tracks, plots = np.bincount(contest.track_cluster()), np.bincount(contest.plot_cluster())
     two, other = tracks == 2, (plots == 2) & (tracks != 2)
     rest = ~(two | other)
