@@ -10,7 +10,7 @@ import numpy as np
 
 from radar_tracker.estimator_config import AlphaBetaConfig, RADAR_ESTIMATORS
 from radar_tracker.motion_config import MotionConfig
-from tracking_core.association import ASSOCIATORS
+from tracking_core.association import ASSOCIATORS, JOINT
 from tracking_core.config import parameter, validate
 from tracking_core.lifecycle_config import (
     ExistenceConfig,
@@ -181,8 +181,8 @@ class RadarTrackerConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
-        if self.sensor.range_resolution > 0.0 and self.association != 'jpda':
+        if self.sensor.range_resolution > 0.0 and self.association not in JOINT:
             raise ValueError(
-                'RadarTrackerConfig.association must be jpda where sensor.range_resolution is '
-                f'above 0, got {self.association}'
+                'RadarTrackerConfig.association must be jpda or jpda_star where '
+                f'sensor.range_resolution is above 0, got {self.association}'
             )

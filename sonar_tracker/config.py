@@ -10,7 +10,7 @@ import numpy as np
 
 from sonar_tracker.motion_config import MotionConfig
 from sonar_tracker.ranging_config import RangingConfig
-from tracking_core.association import ASSOCIATORS
+from tracking_core.association import ASSOCIATORS, JOINT
 from tracking_core.config import parameter, validate
 from tracking_core.estimators import BEARING_ESTIMATORS
 from tracking_core.lifecycle import LIFECYCLES
@@ -163,8 +163,8 @@ class SonarTrackerConfig:
                 f'SonarTrackerConfig.motion must have one mode with the estimator '
                 f'{self.estimator}, got {modes}'
             )
-        if self.sensor.bearing_resolution > 0.0 and self.association != 'jpda':
+        if self.sensor.bearing_resolution > 0.0 and self.association not in JOINT:
             raise ValueError(
-                'SonarTrackerConfig.association must be jpda where sensor.bearing_resolution is '
-                f'above 0, got {self.association}'
+                'SonarTrackerConfig.association must be jpda or jpda_star where '
+                f'sensor.bearing_resolution is above 0, got {self.association}'
             )

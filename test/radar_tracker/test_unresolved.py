@@ -15,6 +15,7 @@ from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig, SensorConfig
 from radar_tracker.sensor import Radar
 from radar_tracker.tracker import RadarTracker
+from tracking_core.association import JOINT
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values
 from tracking_core.resolution import near_pairs, Places
@@ -60,12 +61,14 @@ def test_unknown_height_keeps_nobody_apart() -> None:
 
 
 def test_one_resolution_alone_and_hard_association_are_refused() -> None:
-    """Both or neither, and jpda only."""
+    """Both or neither, and tracks weighed jointly only."""
     for name, value in CELL.items():
         with pytest.raises(ValueError, match='must both be 0 or both be above 0'):
             with_values(RadarTrackerConfig(), {name: value})
     with pytest.raises(ValueError, match='association must be jpda'):
         with_values(RadarTrackerConfig(), {**CELL, 'association': 'nearest'})
+    for joint in JOINT:
+        with_values(RadarTrackerConfig(), {**CELL, 'association': joint})
 
 
 def test_default_resolves_everything() -> None:

@@ -23,6 +23,7 @@ from tracking_core.batches import Association, Floats, Ints
 __all__ = [
     'ASSOCIATORS',
     'DECIDING',
+    'JOINT',
     'Associator',
     'clusters',
     'global_nearest',
@@ -76,3 +77,4 @@ ASSOCIATORS: dict[str, Associator] = {
     'nearest': nearest,
 }
 DECIDING = ('global_nearest', 'nearest')  # the others share a plot among tracks
+JOINT = ('jpda', 'jpda_star')  # weigh all tracks jointly; know what to do with plots in common
