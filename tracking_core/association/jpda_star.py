@@ -16,7 +16,7 @@ import numpy as np
 from tracking_core.association.clusters import Contest
 from tracking_core.association.contention import share_jointly
 from tracking_core.association.events import are_few, sum_up_events
-from tracking_core.association.jpda import sum_up
+from tracking_core.association.forest import sum_up_forest
 from tracking_core.association.layout import lay_out
 from tracking_core.association.permutations import comparisons, sum_up_best
 from tracking_core.association.sums import choose
@@ -37,8 +37,8 @@ def jpda_star(
     Returns
     -------
     Association
-        ``approximate`` is True for tracks in clusters too large for this, which get the weights
-        of `jpda`.
+        ``approximate`` is True for tracks in clusters too large for this, in which pairs that
+        would close a loop are left out.
 
     References
     ----------
@@ -62,8 +62,11 @@ def _settle(contest: Contest) -> tuple[Floats, Bools]:
     large[rest] = [comparisons(min(size), max(size)) > LARGEST for size in sizes]
     probability, rough = np.empty(len(contest.track)), large[contest.cluster]
     kinds = (
-        (_duel, two), (_duel_of_plots, other), (sum_up_best, rest & ~large), (_as_jpda, large),
-    )  # fmt: skip
+        (_duel, two),
+        (_duel_of_plots, other),
+        (sum_up_best, rest & ~large),
+        (sum_up_forest, large),
+    )
     for solve, chosen in kinds:
         pairs = chosen[contest.cluster]
         if pairs.all():
@@ -71,10 +74,6 @@ def _settle(contest: Contest) -> tuple[Floats, Bools]:
         if pairs.any():
             probability[pairs] = solve(contest.take(pairs))
     return probability, rough
-
-
-def _as_jpda(contest: Contest) -> Floats:
-    return sum_up(contest)[0]
 
 
 def _duel_of_plots(contest: Contest) -> Floats:
