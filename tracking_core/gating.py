@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which plots could belong to which tracks? Found over a grid of cells."""
+"""Which plots could belong to which tracks? Found by a sweep, over a grid of cells if many."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ import numpy as np
 from tracking_core.batches import Floats, Ints
 from tracking_core.linalg import wrap_angle
 
-_FEW = 20_000  # track-plot combinations that are all compared sooner than sorted
+_FEW = 1_500  # track-plot combinations that are all compared sooner than sorted
+_MANY = 500_000  # ... for which the cells are worth their price
 _SAMPLED = 64  # boxes that tell the usual size
 _MOST_CELLS, _CELLS_PER_PLOT = 2**16, 8  # of the grid: what 16 bits number, and not too many
 
@@ -22,8 +23,9 @@ def box_pairs(
     """
     Find all plots inside axis-parallel boxes around the tracks.
 
-    Unless they are few, plots are sorted into the cells of a grid; a track looks only into those
-    that its box touches, so that the work grows with the number of pairs, not with T times M.
+    Some hundreds of plots are sorted by their first coordinate. If there are more, they are sorted
+    into the cells of a grid; a track looks only into those that its box touches, so that the work
+    grows with the number of pairs, not with T times M.
 
     Parameters
     ----------
@@ -45,12 +47,13 @@ def box_pairs(
     empty = np.zeros(0, np.int64)
     if len(centre) == 0 or len(plots) == 0:
         return empty, empty
-    if len(centre) * len(plots) <= min(_FEW, most):
+    combinations = len(centre) * len(plots)
+    if combinations <= min(_FEW, most):
         return _compare_all(centre, half_size, plots)
-    if plots.shape[1] == 1:  # one coordinate: one row
-        centre, half_size = np.pad(centre, ((0, 0), (0, 1))), np.pad(half_size, ((0, 0), (0, 1)))
-        plots = np.pad(plots, ((0, 0), (0, 1)))
-    track, plot = _candidates(centre, half_size, plots, most)
+    if combinations <= _MANY or plots.shape[1] == 1:
+        track, plot = _sweep(centre, half_size, plots, most)
+    else:
+        track, plot = _candidates(centre, half_size, plots, most)
     for axis in range(plots.shape[1]):  # what a plot does not measure, NaN, keeps nobody out
         apart = np.abs(plots[:, axis].take(plot) - centre[:, axis].take(track))
         inside = (~(apart > half_size[:, axis].take(track))).nonzero()[0]
@@ -66,6 +69,17 @@ def _compare_all(centre: Floats, half_size: Floats, plots: Floats) -> tuple[Ints
         inside &= ~(np.abs(plots[:, axis] - centre[:, at]) > half_size[:, at])  # NaN: as below
     track, plot = inside.nonzero()
     return track, plot
+
+
+def _sweep(centre: Floats, half_size: Floats, plots: Floats, most: int) -> tuple[Ints, Ints]:
+    """Return tracks (C,) with the plots (C,) that are near enough in the first coordinate."""
+    x, middle, half = plots[:, 0], centre[:, 0], half_size[:, 0]
+    order = x.argsort(kind='stable')
+    along = x[order]
+    first = along.searchsorted(middle - half, 'left')
+    count = np.maximum(along.searchsorted(middle + half, 'right') - first, 0)
+    count[count.cumsum() > most] = 0
+    return np.arange(len(centre)).repeat(count), order[_runs(first, count)]
 
 
 def sector_pairs(

@@ -1,13 +1,16 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""The sorted sweep finds the same pairs as looking at all of them."""
+"""Sweep and grid find the same pairs as looking at all of them."""
 
 from __future__ import annotations
+
+from unittest.mock import patch
 
 from hypothesis import example, given, settings, strategies
 import numpy as np
 from numpy.testing import assert_array_equal
 
+from tracking_core import gating
 from tracking_core.gating import box_pairs, sector_pairs
 
 
@@ -25,9 +28,10 @@ def brute_force(centre, half_size, plots):
     dimensions=strategies.sampled_from([1, 2, 3]),
     size=strategies.sampled_from([0.0, 0.01, 1.0, 30.0, 1e4]),
     grid=strategies.booleans(),
+    way=strategies.sampled_from([(10_000, 10_000), (0, 10_000), (0, 0)]),  # all, a sweep, cells
 )
-@example(seed=61, tracks=3, plots=45, dimensions=2, size=1e4, grid=False)  # the rightmost plot
-def test_box_pairs_equals_brute_force(seed, tracks, plots, dimensions, size, grid) -> None:
+@example(61, 3, 45, 2, 1e4, False, (0, 0))  # the rightmost plot
+def test_box_pairs_equals_brute_force(seed, tracks, plots, dimensions, size, grid, way) -> None:
     """Any sizes, boxes from points to everything, also with plots on common lines."""
     rng = np.random.default_rng(seed)
     centre = rng.normal(0.0, 10.0, (tracks, dimensions))
@@ -35,7 +39,8 @@ def test_box_pairs_equals_brute_force(seed, tracks, plots, dimensions, size, gri
     if grid:
         centre, where = np.round(centre), np.round(where)
     half_size = size * rng.exponential(1.0, (tracks, dimensions))
-    found = box_pairs(centre, half_size, where)
+    with patch.multiple(gating, _FEW=way[0], _MANY=way[1]):
+        found = box_pairs(centre, half_size, where)
     for ours, expected in zip(found, brute_force(centre, half_size, where), strict=True):
         assert_array_equal(ours, expected)
 
