@@ -159,16 +159,20 @@ class Mixture:
     mode_probability: Floats  # (T, J)
     memory: Floats  # (T, k) what an estimator keeps beside; k = 0 for most
 
-    def moments(self) -> tuple[Floats, Floats]:
-        """Return mean (T, n) and covariance (T, n, n) of the mixture, spread of means included."""
-        return self._moments
+    @cached_property
+    def average(self) -> Floats:
+        """Mean (T, n) of the mixture."""
+        return np.einsum('tj,tjn->tn', self.mode_probability, self.mean)
 
     @cached_property
-    def _moments(self) -> tuple[Floats, Floats]:
-        mean = np.einsum('tj,tjn->tn', self.mode_probability, self.mean)
-        spread = self.mean - mean[:, None]
+    def _total_covariance(self) -> Floats:
+        spread = self.mean - self.average[:, None]
         total = self.covariance + np.einsum('tjn,tjm->tjnm', spread, spread)
-        return mean, np.einsum('tj,tjnm->tnm', self.mode_probability, total)
+        return np.einsum('tj,tjnm->tnm', self.mode_probability, total)
+
+    def moments(self) -> tuple[Floats, Floats]:
+        """Return mean (T, n) and covariance (T, n, n) of the mixture, spread of means included."""
+        return self.average, self._total_covariance
 
     def most_probable(self) -> tuple[Floats, Floats]:
         """Return mean (T, n) and covariance (T, n, n) of the most probable mode."""

@@ -50,11 +50,11 @@ def box_pairs(
     combinations = len(centre) * len(plots)
     if combinations <= min(_FEW, most):
         return _compare_all(centre, half_size, plots)
-    if combinations <= _MANY or plots.shape[1] == 1:
-        track, plot = _sweep(centre, half_size, plots, most)
-    else:
-        track, plot = _candidates(centre, half_size, plots, most)
-    for axis in range(plots.shape[1]):  # what a plot does not measure, NaN, keeps nobody out
+    swept = combinations <= _MANY or plots.shape[1] == 1
+    find = _sweep if swept else _touched
+    track, plot = find(centre, half_size, plots, most)
+    # What a plot does not measure, NaN, keeps nobody out; a sweep has dealt with the first axis.
+    for axis in range(int(swept), plots.shape[1]):
         apart = np.abs(plots[:, axis].take(plot) - centre[:, axis].take(track))
         inside = (~(apart > half_size[:, axis].take(track))).nonzero()[0]
         track, plot = track.take(inside), plot.take(inside)
@@ -101,7 +101,7 @@ def sector_pairs(
     return _in_order(track, order[place % max(len(order), 1)], M)
 
 
-def _candidates(centre: Floats, half_size: Floats, plots: Floats, most: int) -> tuple[Ints, Ints]:
+def _touched(centre: Floats, half_size: Floats, plots: Floats, most: int) -> tuple[Ints, Ints]:
     """Return tracks (C,) with the plots (C,) in the cells that their boxes touch."""
     edge = plots[:, :2].min(axis=0)
     extent = plots[:, :2].max(axis=0) - edge

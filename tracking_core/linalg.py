@@ -5,12 +5,11 @@
 from __future__ import annotations
 
 from functools import reduce
+import math
 
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints
-
-MANY = 200  # tracks from which a sum by columns is the faster one
 
 
 def wrap_angle(angle: Floats) -> Floats:
@@ -31,12 +30,17 @@ def symmetrise(matrix: Floats) -> Floats:
 
 
 def determinant(matrix: Floats) -> Floats:
-    """Return the determinants of symmetric (..., d, d)."""
-    if matrix.shape[-1] == 1:
+    """Return the determinants of symmetric (..., d, d), d up to 3 in closed form."""
+    size = matrix.shape[-1]
+    if size == 1:
         return matrix[..., 0, 0]
-    if matrix.shape[-1] == 2:
-        return np.asarray(matrix[..., 0, 0] * matrix[..., 1, 1] - matrix[..., 0, 1] ** 2)
-    return np.asarray(np.linalg.det(matrix))
+    a, b, c = matrix[..., 0, 0], matrix[..., 0, 1], matrix[..., 1, 1]
+    if size == 2:
+        return np.asarray(a * c - b * b)
+    if size > 3:
+        return np.asarray(np.linalg.det(matrix))
+    e, f, g = matrix[..., 0, 2], matrix[..., 1, 2], matrix[..., 2, 2]
+    return np.asarray(a * (c * g - f * f) + b * (e * f - b * g) + e * (b * f - c * e))
 
 
 def inverse(matrix: Floats) -> tuple[Floats, Floats]:
@@ -106,7 +110,7 @@ def sum_by_track(rows: Floats, track: Ints, tracks: int) -> Floats:
     rows : (P, ...) array
         What is summed.
     track : (P,) array
-        Row of the result for each of `rows`, sorted.
+        Row of the result for each of `rows`.
     tracks : int
         T, the number of rows of the result.
 
@@ -118,15 +122,10 @@ def sum_by_track(rows: Floats, track: Ints, tracks: int) -> Floats:
     """
     if rows.ndim == 1:
         return np.asarray(np.bincount(track, rows, tracks), np.float64)
-    result = np.zeros((tracks, *rows.shape[1:]), order='F')
-    if tracks > MANY + len(track) // 3 and len(track):  # reduceat is dear by track
-        columns = result.T.reshape(-1, tracks), rows.T.reshape(-1, len(track))
-        for total, values in zip(*columns, strict=True):
-            total[:] = np.bincount(track, values, tracks)
-    elif len(track):
-        starts = first_rows(track)
-        result[track[starts]] = np.add.reduceat(rows, starts, axis=0)
-    return result
+    columns = math.prod(rows.shape[1:])
+    place = track + tracks * np.arange(columns)[:, None]  # of all columns, in one count
+    total = np.bincount(place.reshape(-1), rows.T.reshape(-1), columns * tracks)
+    return np.asarray(total.reshape(*rows.shape[:0:-1], tracks).T, np.float64)
 
 
 def first_rows(label: Ints) -> Ints:

@@ -11,7 +11,8 @@ import numpy as np
 from tracking_core.batches import Bools, Floats, Ints, Tracks
 from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import MergeConfig
-from tracking_core.linalg import symmetrise, wrap_angle
+from tracking_core.linalg import inverse, wrap_angle
+from tracking_core.rows import take_rows
 
 
 def end_doubles(
@@ -61,14 +62,13 @@ def duplicates(tracks: Tracks, distance: float, is_angular: bool = False) -> Boo
     one, other = find(position, np.sqrt(2.0 * mean.shape[1]) * distance * sd, position)
     apart = one != other
     first, second = np.minimum(one, other)[apart], np.maximum(one, other)[apart]
-    if len(first) == 0:
-        return lost
-    close = np.ones(len(first), bool)
-    dt = tracks.time[second] - tracks.time[first]
     for m, P in moments:
-        squared = _distance_squared(m, P, first, second, dt, is_angular)
-        close &= squared <= distance**2 * m.shape[1]
-    first, second = first[close], second[close]
+        if len(first) == 0:
+            return lost
+        dt, bound = tracks.time[second] - tracks.time[first], distance**2 * m.shape[1]
+        for part in (slice(0, None, 2), slice(None)):  # places are no farther apart than states
+            near = _distance_squared(m, P, first, second, dt, is_angular, part) <= bound
+            first, second, dt = first[near], second[near], dt[near]
     rank = _rank(tracks)
     lost[np.where(rank[first] < rank[second], second, first)] = True
     return lost
@@ -79,16 +79,16 @@ def _compared(mean: Floats, covariance: Floats, is_angular: bool) -> tuple[Float
 
 
 def _distance_squared(
-    mean: Floats, P: Floats, first: Ints, second: Ints, dt: Floats, is_angular: bool
+    mean: Floats, P: Floats, first: Ints, second: Ints, dt: Floats, is_angular: bool, part: slice
 ) -> Floats:
-    """Return the squared distance of track pairs, the earlier moved to the later's time."""
-    moved = mean[first].copy()
-    moved[:, 0::2] += moved[:, 1::2] * dt[:, None]
-    delta = mean[second] - moved
+    """Return the squared distance of this part of track pairs, at the time of the later one."""
+    delta = take_rows(mean, second) - take_rows(mean, first)
+    delta[:, 0::2] -= take_rows(mean[:, 1::2], first) * dt[:, None]
     if is_angular:
         delta[:, 0::2] = wrap_angle(delta[:, 0::2])
-    total = symmetrise(P[first] + P[second])
-    return np.asarray((delta * np.linalg.solve(total, delta[..., None])[..., 0]).sum(axis=1))
+    delta, P = delta[:, part], P[:, part, part]
+    total = take_rows(P, first) + take_rows(P, second)
+    return np.asarray(np.einsum('ki,kij,kj->k', delta, inverse(total)[0], delta))
 
 
 def _rank(tracks: Tracks) -> Ints:

@@ -11,7 +11,7 @@ import numpy as np
 from tracking_core.batches import Floats, Seeds
 from tracking_core.composition import Density
 from tracking_core.lifecycle_config import InitiationConfig
-from tracking_core.linalg import inverse
+from tracking_core.linalg import determinant, inverse
 
 MOST_NEW = 0.9  # share of the unclaimed plots that new contacts can have made
 _STEPS = 5  # of expectation and maximisation
@@ -44,8 +44,8 @@ class Odds:
 
     def at_best(self, seeds: Seeds, dt: float) -> Floats:
         """Return `of_pair` (S,) if the second plot lies where the first does, dt [s] later."""
-        _, determinant = inverse(self._spread(2.0 * seeds.covariance, np.full(len(seeds), dt)))
-        return self._odds(seeds, determinant)
+        spread = self._spread(2.0 * seeds.covariance, np.full(len(seeds), dt))
+        return self._odds(seeds, determinant(spread))
 
     def of_pair(self, first: Seeds, second: Seeds, step: Floats, dt: Floats) -> Floats:
         """
@@ -55,9 +55,9 @@ class Odds:
         `step` (K, d) [m] apart after `dt` (K,) [s].
         """
         spread = self._spread(first.covariance + second.covariance, dt)
-        inverted, determinant = inverse(spread)
+        inverted, size = inverse(spread)
         distance = np.einsum('kd,kde,ke->k', step, inverted, step)
-        return np.asarray(self._odds(second, determinant) * np.exp(-0.5 * distance))
+        return np.asarray(self._odds(second, size) * np.exp(-0.5 * distance))
 
     def _spread(self, noise: Floats, dt: Floats) -> Floats:
         """Return the covariance (K, d, d) of a step with this noise (K, d, d) after dt (K,)."""
@@ -67,11 +67,11 @@ class Odds:
             spread[:, axis, axis] += variance * dt * dt
         return spread
 
-    def _odds(self, second: Seeds, determinant: Floats) -> Floats:
-        """Return the odds of a second plot that lies just where it was expected."""
+    def _odds(self, second: Seeds, size: Floats) -> Floats:
+        """Return the odds of a second plot just where it was expected, `size` = |covariance|."""
         d = second.position.shape[1]
         others = np.maximum(self.density.total * second.clutter_volume, 1e-300)
-        peak = 1.0 / np.sqrt((2.0 * np.pi) ** d * determinant)
+        peak = 1.0 / np.sqrt((2.0 * np.pi) ** d * size)
         return np.asarray(self.detection_probability * second.free * peak / others)
 
 

@@ -97,7 +97,7 @@ def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]
 
 def _level_motion(tracks: Tracks) -> tuple[Floats, Floats]:
     """Return position and velocity (T, 2) over the ground; of a sonar bearing and rate (T, 1)."""
-    mean, _ = tracks.planes[0].moments()
+    mean = tracks.planes[0].average
     return mean[:, 0:4:2], mean[:, 1:4:2]
 
 
