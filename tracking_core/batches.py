@@ -162,13 +162,13 @@ class Mixture:
     @cached_property
     def average(self) -> Floats:
         """Mean (T, n) of the mixture."""
-        return np.einsum('tj,tjn->tn', self.mode_probability, self.mean)
+        return np.asarray(np.einsum('tj,tjn->tn', self.mode_probability, self.mean))
 
     @cached_property
     def _total_covariance(self) -> Floats:
         spread = self.mean - self.average[:, None]
         total = self.covariance + np.einsum('tjn,tjm->tjnm', spread, spread)
-        return np.einsum('tj,tjnm->tnm', self.mode_probability, total)
+        return np.asarray(np.einsum('tj,tjnm->tnm', self.mode_probability, total))
 
     def moments(self) -> tuple[Floats, Floats]:
         """Return mean (T, n) and covariance (T, n, n) of the mixture, spread of means included."""
