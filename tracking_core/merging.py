@@ -16,13 +16,19 @@ from tracking_core.rows import take_rows
 
 
 def end_doubles(
-    tracks: Tracks, passed: Bools, config: MergeConfig, is_angular: bool = False
+    tracks: Tracks,
+    passed: Bools,
+    config: MergeConfig,
+    is_angular: bool = False,
+    is_unresolved: bool = False,
 ) -> tuple[Tracks, Bools]:
     """
     Return the tracks with their looks as doubles counted, and which of them are to go.
 
     Contacts that cross are near each other for a look or two, doubles stay so: a confirmed track
-    goes after `config.looks` looks in a row, a tentative one at once.
+    goes after `config.looks` looks in a row, a tentative one at once. Contacts that have plots in
+    common may stay near for long, but were apart before they met: of such, a track goes once it
+    was a double for as many looks as it had a plot without being one.
 
     Parameters
     ----------
@@ -34,12 +40,16 @@ def end_doubles(
         What counts as near, and how long.
     is_angular : bool
         Positions are angles.
+    is_unresolved : bool
+        Contacts may have plots in common.
 
     """
     near = duplicates(tracks, config.distance, is_angular)
     looks = np.where(near, tracks.doubled + 1, 0)
     tracks = replace(tracks, doubled=np.where(passed, looks, tracks.doubled))
-    return tracks, near & (~tracks.confirmed | (tracks.doubled >= config.looks))
+    apart = tracks.hits - tracks.doubled if is_unresolved else 0
+    patience = np.maximum(config.looks, apart)
+    return tracks, near & (~tracks.confirmed | (tracks.doubled >= patience))
 
 
 def duplicates(tracks: Tracks, distance: float, is_angular: bool = False) -> Bools:

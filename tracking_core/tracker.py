@@ -87,8 +87,9 @@ class Tracker:
         born, seeds, used = start_tracks(scan, seen, density, interval, self.setup, state)
 
         living, doubled = end_doubles(
-            seen.tracks, seen.passed, self.setup.merge, self.setup.sensor.is_angular
-        )
+            seen.tracks, seen.passed, self.setup.merge, self.setup.sensor.is_angular,
+            is_unresolved=self.setup.resolution is not None,
+        )  # fmt: skip
         kept = take(living, ~doubled)
         room = max(self.setup.max_tracks - len(kept), 0)
         fitting = born if len(born) <= room else take(born, slice(0, room))

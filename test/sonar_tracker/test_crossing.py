@@ -13,6 +13,7 @@ from sonar_tracker.tracker import bearing_states, SonarTracker
 from studies.v0_crossing import kept, OURS, PAPER, RESOLUTION, run, SEED
 from studies.v0_figures import AFTER, BEFORE
 from studies.v0_scenes import truth
+from studies.voronina_2019 import TURNING
 from tracking_core.batches import Bearings
 from tracking_core.config import with_values
 from tracking_core.linalg import wrap_angle
@@ -43,6 +44,15 @@ def test_ids_are_kept_through_the_crossing(name: str, misjudged: float) -> None:
     assert held.all()
     assert not swapped
     assert one.false == 0
+
+
+@pytest.mark.slow
+def test_contact_that_turns_towards_the_other_while_merged_keeps_its_id() -> None:
+    """They stay one mark for fourteen minutes, in which neither is ended as the other's double."""
+    one = run('towards', SEED + 1, TURNING)
+    held, swapped = kept(one, BEFORE, AFTER)
+    assert held.all()
+    assert not swapped
 
 
 @pytest.mark.slow

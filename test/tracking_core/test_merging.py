@@ -126,3 +126,15 @@ def test_end_doubles_forgets_those_that_part() -> None:
     parted, _ = end_doubles(replace(apart, doubled=near.doubled), passed, config)
     assert_array_equal(near.doubled, [0, 2])
     assert_array_equal(parted.doubled, [0, 0])
+
+
+@pytest.mark.parametrize('apart', [1, 14])
+def test_end_doubles_spares_contacts_that_were_apart_before(apart: int) -> None:
+    """Of unresolved contacts one goes after as many looks as it was apart, at least three."""
+    tracks = make_tracks([[0, 10, 0, 0], [3, 10, 0, 0]], confirmed=True, hits=[99, apart])
+    for look in range(1, max(apart, 3) + 1):
+        tracks = replace(tracks, hits=tracks.hits + 1)
+        tracks, ended = end_doubles(
+            tracks, np.ones(2, bool), MergeConfig(looks=3), is_unresolved=True
+        )
+        assert_array_equal(ended, [False, look == max(apart, 3)])
