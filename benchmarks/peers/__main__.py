@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     entries = {
         name: Entry(one.make, min(one.scans, chosen.scans), chosen.runs or one.runs)
         for name, one in MENU.items()
-        if name in (chosen.only or MENU)
+        if name in chosen.only or not (chosen.only or one.when_asked)
     }
     results: Results = _results(entries, entrants, chosen)
     if chosen.keep is not None:
@@ -81,7 +81,14 @@ def _results(
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog='peers', description=__doc__)
     add = parser.add_argument
-    add('--only', nargs='*', choices=MENU, metavar='SCENE', help=f'of {", ".join(MENU)}')
+    add(
+        '--only',
+        nargs='*',
+        default=[],
+        choices=MENU,
+        metavar='SCENE',
+        help=f'of {", ".join(MENU)}',
+    )
     add('--peers', nargs='*', choices=ENTRANTS, metavar='NAME', help=f'of {", ".join(ENTRANTS)}')
     add('--scans', type=int, default=10_000, help='at most, of each run')
     add('--runs', type=int, help='of each scene, instead of its own number')

@@ -18,6 +18,7 @@ from tracking_tools.scenarios.studies import two_mode_path
 from tracking_tools.scenarios.traffic import en_route
 
 SPACING = 15_000.0  # an aircraft en route on each square of this size [m]
+ABREAST = 400.0  # of aircraft in formation [m]
 FLIGHT = Knowledge(
     period=8.0,
     noise=100.0,
@@ -64,10 +65,18 @@ def traffic(count: int, scans: int, seed: int) -> Scene:
 
 
 def formations(scans: int, seed: int) -> Scene:
-    """Return ten times four aircraft, 400 m apart, that turn together and break away."""
+    """Return ten times four aircraft, `ABREAST` apart, that turn together and break away."""
     contacts = _spread(build('formation').contacts, 10, 60_000.0)
     knowledge = replace(_NEAR, region=200_000.0, clutter_density=2e-10)
     return observe('formations', knowledge, contacts, scans, seed)
+
+
+def large_formations(scans: int, seed: int) -> Scene:
+    """Return twice sixteen aircraft that fly and turn as `formations` do."""
+    four = build('formation').contacts
+    contacts = _spread(_spread(four, 4, 2.0 * ABREAST), 2, 60_000.0)
+    knowledge = replace(_NEAR, region=200_000.0, clutter_density=2e-10)
+    return observe('large formations', knowledge, contacts, scans, seed)
 
 
 def crossings(scans: int, seed: int) -> Scene:
@@ -119,6 +128,7 @@ class Entry:
     make: Callable[[int, int], Scene]  # from scans and seed
     scans: int
     runs: int
+    when_asked: bool = False  # by name only: takes some of the others too long
 
 
 MENU = {
@@ -127,6 +137,7 @@ MENU = {
     'en_route_200': Entry(partial(traffic, 200), 16, 2),
     'en_route_1000': Entry(partial(traffic, 1000), 10, 1),
     'formations': Entry(formations, 90, 2),
+    'large_formations': Entry(large_formations, 50, 2, when_asked=True),
     'crossings': Entry(crossings, 100, 4),
     'one_that_turns': Entry(manoeuvre, 100, 8),
     'sonar': Entry(listening, 120, 6),

@@ -239,7 +239,7 @@ def test_jpda_star_leaves_no_loops_in_large_clusters() -> None:
     assert rough.approximate.all()
     assert np.count_nonzero(rough.probability) == 9 + 9 - 1
     assert np.all(rough.probability[global_nearest(*scene).probability == 1.0] > 0.0)
-    assert not jpda_star(*make_scene(1, 8, 8, 1.0, 3.0)).approximate.any()
+    assert not jpda_star(*make_scene(1, 7, 8, 1.0, 3.0)).approximate.any()
 
 
 def test_jpda_star_without_loops_is_near(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,7 +22,7 @@ from tracking_core.association.permutations import comparisons, sum_up_best
 from tracking_core.association.sums import choose
 from tracking_core.batches import Association, Bools, Floats, Ints
 
-LARGEST = 100_000  # comparisons in a cluster: eight tracks on eight plots, five on thirteen
+LARGEST = 30_000  # comparisons in a cluster: seven tracks on eight plots, four on eighteen
 _NEVER = -1e9  # log weight that no event has
 
 
