@@ -56,7 +56,8 @@ def from_columns_under(
     header: Any, columns: Mapping[str, NDArray[Any]], types: MessageTypes
 ) -> Any:
     """Return what `from_columns` returns, under a ready header (its stamp is kept exactly)."""
-    dtype = _row_type(columns)
+    kinds = [(name, v.dtype.str[1:], v.ndim, v.shape[1:]) for name, v in columns.items()]
+    dtype = _row_type(tuple(kinds))
     rows = np.zeros(len(next(iter(columns.values()))), dtype)
     for name, values in columns.items():
         if len(values) != len(rows):
@@ -75,12 +76,13 @@ def from_columns_under(
     )
 
 
-def _row_type(columns: Mapping[str, NDArray[Any]]) -> np.dtype[Any]:
-    """Return the packed little-endian record of one row."""
-    for name, values in columns.items():
-        if values.dtype.str[1:] not in _CODES or values.ndim not in (1, 2):
-            raise ValueError(f'column {name} cannot be {values.dtype} of shape {values.shape}')
-    return np.dtype([(name, '<' + v.dtype.str[1:], v.shape[1:]) for name, v in columns.items()])
+@lru_cache(maxsize=64)
+def _row_type(columns: tuple[tuple[str, str, int, tuple[int, ...]], ...]) -> np.dtype[Any]:
+    """Return the packed little-endian record of a row of columns (name, type, axes, shape)."""
+    for name, kind, axes, shape in columns:
+        if kind not in _CODES or axes not in (1, 2):
+            raise ValueError(f'column {name} cannot be {kind} with {axes} axes, rows of {shape}')
+    return np.dtype([(name, '<' + kind, shape) for name, kind, _, shape in columns])
 
 
 @lru_cache(maxsize=64)

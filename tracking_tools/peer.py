@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import count
+import math
 import time
 from typing import Any
 
@@ -142,20 +143,32 @@ class Peer:
             lambda: wanted in self.node.get_node_names_and_namespaces(), f'node {name}', deadline
         )
 
-    def call(self, kind: Any, service: str, request: Any, deadline: float = DEADLINE) -> Any:
-        """Return the answer of a service."""
-        client = self.node.create_client(kind, service)
+    def call(
+        self, kind: Any, service: str, request: Any, deadline: float = DEADLINE,
+        again: float = math.inf,
+    ) -> Any:  # fmt: skip
+        """
+        Return the answer of a service.
+
+        A node that does not know the asking one yet loses its answer. A service that changes
+        nothing may be asked once more whenever there was none for `again` seconds.
+        """
+        client, asked = self.node.create_client(kind, service), []
         try:
             self.spin_until(client.service_is_ready, f'service {service}', deadline)
-            future = client.call_async(request)
-            self.spin_until(future.done, f'the answer of {service}', deadline)
-            return future.result()
+            self.ask(
+                lambda _: asked.append(client.call_async(request)),
+                lambda: any(future.done() for future in asked),
+                f'the answer of {service}', min(again, deadline), deadline,
+            )  # fmt: skip
+            return next(future.result() for future in asked if future.done())
         finally:
             self.node.destroy_client(client)
 
     def state(self, node: str, deadline: float = DEADLINE) -> str:
         """Return the state of a lifecycle node: unconfigured, inactive, active or finalized."""
-        answer = self.call(GetState, f'{node}/get_state', GetState.Request(), deadline)
+        request = GetState.Request()
+        answer = self.call(GetState, f'{node}/get_state', request, deadline, AGAIN)
         return str(answer.current_state.label)
 
     def wait_until_active(self, node: str, deadline: float = DEADLINE) -> None:

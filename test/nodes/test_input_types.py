@@ -58,7 +58,7 @@ def test_radar_node_tracks_the_positions_of_a_pose_array(start_node, probe):
     start_node('input_type:=geometry_msgs/PoseArray')
     plots = first_publisher(probe, pose_array)
     request = GetParameters.Request(names=['input_types_available', 'output_types_available'])
-    told = probe.call(GetParameters, '/radar_tracker/get_parameters', request)
+    told = probe.call(GetParameters, '/radar_tracker/get_parameters', request, again=1.0)
     assert 'geometry_msgs/PoseArray' in told.values[0].string_array_value
     assert told.values[1].string_array_value == ['none']  # radar_msgs has no wheel
     for step in range(10):

@@ -39,13 +39,13 @@ def set_together(probe, *changes):
     """Ask for all changes or none; return the result."""
     request = SetParametersAtomically.Request(parameters=list(changes))
     name = f'{probe.sensor.node}/set_parameters_atomically'
-    return probe.call(SetParametersAtomically, name, request).result
+    return probe.call(SetParametersAtomically, name, request, again=1.0).result
 
 
 def get(probe, *names):
     """Return the values of parameters."""
     request = GetParameters.Request(names=list(names))
-    answer = probe.call(GetParameters, f'{probe.sensor.node}/get_parameters', request)
+    answer = probe.call(GetParameters, f'{probe.sensor.node}/get_parameters', request, again=1.0)
     return [value.double_value for value in answer.values]
 
 

@@ -73,7 +73,9 @@ def test_live_parameter_is_described_checked_and_followed(start_node, probe):
     start_node()
     probe.meet()
     request = DescribeParameters.Request(names=['sensor.range_sd', 'association'])
-    answer = probe.call(DescribeParameters, 'radar_tracker/describe_parameters', request)
+    answer = probe.call(
+        DescribeParameters, 'radar_tracker/describe_parameters', request, again=1.0
+    )
     number, choice = answer.descriptors
     assert number.description == 'range noise [m]'
     assert number.floating_point_range[0].from_value == pytest.approx(1e-3)
@@ -81,7 +83,9 @@ def test_live_parameter_is_described_checked_and_followed(start_node, probe):
 
     def set_to(name, value):
         request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
-        return probe.call(SetParameters, 'radar_tracker/set_parameters', request).results[0]
+        return probe.call(
+            SetParameters, 'radar_tracker/set_parameters', request, again=1.0
+        ).results[0]
 
     whole = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=5)
     below = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=-1.0)

@@ -7,9 +7,11 @@ from pathlib import Path
 import re
 import subprocess
 import sys
+import time
 
 from diagnostic_msgs.msg import DiagnosticArray
 import pytest
+from std_srvs.srv import Trigger
 
 from tracking_tools.testing import NodeFailed, NodeProcess, Peer, private_domain, TrackerProbe
 
@@ -52,6 +54,27 @@ def test_waiting_says_for_what(ros_domain_id):
         pytest.raises(TimeoutError, match='3 track tables'),
     ):
         probe.collect(3, deadline=0.1)
+
+
+def test_call_asks_again_when_the_answer_does_not_come(ros_domain_id):
+    """What changes nothing may be asked twice; the first answer ends it."""
+    asked = []
+
+    def answer(request, response):
+        asked.append(request)
+        return response
+
+    def serve():
+        if time.monotonic() > begin + 0.3:  # by then it has been asked more than once
+            server.spin(lambda: False, 0.01)
+
+    with Peer(ros_domain_id) as server, Peer(ros_domain_id, name='other', check=serve) as peer:
+        server.node.create_service(Trigger, 'late', answer)
+        begin = time.monotonic() + 1e9
+        peer.spin_until(lambda: 'late' in str(peer.node.get_service_names_and_types()))
+        begin = time.monotonic()
+        assert peer.call(Trigger, 'late', Trigger.Request(), again=0.1) == Trigger.Response()
+        peer.spin_until(lambda: len(asked) > 1)
 
 
 def test_waiting_for_a_node_that_has_died_ends_at_once(ros_domain_id, tmp_path):
