@@ -15,6 +15,7 @@ import argparse
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import astuple, fields
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,7 @@ from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.config import parameters, with_values
-from tracking_tools.parameter_file import read_parameter_file
+from tracking_tools.parameter_file import parse_value, read_parameter_file
 
 FIRST_SCENE = 1000  # seeds below were looked at while the presets were made
 COLUMNS = tuple(field.name for field in fields(Score))
@@ -66,10 +67,10 @@ def line(name: str, values: tuple[float, ...]) -> str:
     return '| ' + ' | '.join([name, *(f'{x:.3g}' for x in values)]) + ' |'
 
 
-def scene_score(seed: int) -> tuple[float, ...]:
+def scene_score(values: Mapping[str, Any], seed: int) -> tuple[float, ...]:
     """Return the score of a simulated scene."""
     record = sea(seed)
-    return astuple(score(record, track(record, preset('direction_finder'))))
+    return astuple(score(record, track(record, {**preset('direction_finder'), **values})))
 
 
 def main() -> None:
@@ -78,14 +79,17 @@ def main() -> None:
     parser.add_argument('folder', type=Path, nargs='?', default=data_folder())
     parser.add_argument('--scenes', type=int, default=40, help='simulated scenes')
     parser.add_argument('--jobs', type=int, default=2, help='processes')
+    parser.add_argument('--set', nargs='*', default=[], help='parameters as name=value')
     given = parser.parse_args()
+    values = {k: parse_value(v) for k, v in (item.split('=', 1) for item in given.set)}
     print('| ' + ' | '.join(('recording', *COLUMNS)) + ' |\n' + '|---' * (len(COLUMNS) + 1) + '|')
     for record, name in records(given.folder):
-        print(line(record.name, astuple(score(record, track(record, preset(name))))), flush=True)
+        rows = track(record, {**preset(name), **values})
+        print(line(record.name, astuple(score(record, rows))), flush=True)
     if given.scenes:
         seeds = range(FIRST_SCENE, FIRST_SCENE + given.scenes)
         with ProcessPoolExecutor(given.jobs) as pool:
-            found = np.array(list(pool.map(scene_score, seeds)))
+            found = np.array(list(pool.map(partial(scene_score, values), seeds)))
         print(line(f'{given.scenes} scenes, mean', tuple(np.nanmean(found, axis=0))))
         error = np.nanstd(found, axis=0) / np.sqrt(given.scenes)
         print(line('... standard error', tuple(error)))
