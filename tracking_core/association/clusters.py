@@ -37,9 +37,13 @@ def clusters(track: Ints, plot: Ints, tracks: int, plots: int) -> tuple[Ints, In
     shared = contested(plot, plots)
     if not shared.any():
         return np.arange(tracks), track
-    first = _first_of_linked(track[shared], plot[shared], tracks, plots)
-    label = renumber(first, tracks)[1]
+    label = linked(track[shared], plot[shared], tracks, plots)
     return label, label[track]
+
+
+def linked(track: Ints, plot: Ints, tracks: int, plots: int) -> Ints:
+    """Label (T,) the groups of tracks that are linked by any plots, as `clusters` does."""
+    return renumber(_first_of_linked(track, plot, tracks, plots), tracks)[1]
 
 
 def _first_of_linked(track: Ints, plot: Ints, tracks: int, plots: int) -> Ints:

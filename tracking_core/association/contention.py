@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from tracking_core.association.clusters import clusters, Contest, contested, renumber
+from tracking_core.association.clusters import clusters, Contest, contested, linked, renumber
 from tracking_core.association.pda import pda
 from tracking_core.association.sums import choose
 from tracking_core.batches import Association, Bools, Floats, Ints
@@ -30,9 +30,9 @@ def share_jointly(
 
     Plots in one gate only are summed up with the miss of their track first, tracks with one shared
     plot with that plot's being nobody's, and so on in turns. This leaves contests of the same form
-    for those that are linked in loops: mostly few. It is exact for every rule that asks only who
-    of those in loops has which plot: other pairs are in all events with these tracks and plots,
-    or in none.
+    for those that are linked in loops: mostly few. It is exact for `jpda_star`, too: of two events
+    with the same tracks and the same plots in pairs either both have a pair that is in no loop, or
+    neither.
 
     Parameters
     ----------
@@ -110,5 +110,5 @@ def _settle(
 def _contest(track: Ints, plot: Ints, gain: Floats, tracks: int, plots: int) -> Contest:
     rows, track = renumber(track, tracks)
     columns, plot = renumber(plot, plots)
-    cluster = clusters(track, plot, len(rows), len(columns))[1]
+    cluster = linked(track, plot, len(rows), len(columns))[track]
     return Contest(track, plot, gain, cluster, len(rows), len(columns))

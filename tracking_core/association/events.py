@@ -45,10 +45,10 @@ def sum_up_events(layout: Layout, gain: Floats, best_only: bool = False) -> Floa
         Of the events with the same rows and the same columns only the best may be.
 
     """
-    table, _, where = layout.tables(np.arange(len(layout.rows)), _NEVER)
+    rows, columns, size = int(layout.rows.max()), int(layout.columns.max()), len(layout.rows)
+    where, events = (layout.row, layout.column, layout.cluster), _events(rows, columns)
+    table = np.full((rows, columns, size), _NEVER)
     table[where] = np.maximum(gain, _NEVER)
-    rows, columns, size = table.shape
-    events = _events(rows, columns)
     log_weight = events.pairs.T @ table.reshape(-1, size)  # (N, C)
     weight = np.exp(log_weight - log_weight.max(axis=0))
     if best_only:

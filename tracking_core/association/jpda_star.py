@@ -32,7 +32,7 @@ def jpda_star(
     """
     Weigh the plots of all tracks jointly, neighbours never trading them.
 
-    See `Associator` for the arguments. Of two equally good permutations it takes one.
+    See `Associator` for the arguments. Of equally good permutations it may take one or all.
 
     Returns
     -------
