@@ -85,11 +85,14 @@ def _best(gain: Floats, smaller: Floats, size: int) -> tuple[Floats, Ints]:
     """
     rows, fewer_rows = _subsets(gain.shape[0], size)
     columns, fewer_columns = _subsets(gain.shape[1], size)
-    last, rest = rows[:, -1, None, None], fewer_rows[:, -1, None, None]
-    ways = smaller[rest, fewer_columns]  # (S, U, size, C)
-    ways += gain[last, columns]
-    choice = ways.argmax(axis=2)
-    return ways.max(axis=2), choice
+    last, rest = rows[:, -1, None], fewer_rows[:, -1, None]
+    value = smaller[rest, fewer_columns[:, 0]] + gain[last, columns[:, 0]]
+    choice = np.zeros(value.shape, np.int64)
+    for taken in range(1, size):  # members of the set of columns
+        other = smaller[rest, fewer_columns[:, taken]] + gain[last, columns[:, taken]]
+        choice[other > value] = taken
+        np.maximum(value, other, out=value)
+    return value, choice
 
 
 def _follow(flow: Floats, choice: Ints, size: int, share: Floats) -> Floats:
