@@ -11,7 +11,15 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from tracking_core.association import Associator, ASSOCIATORS, clusters, jpda, nearest, pda
+from tracking_core.association import (
+    Associator,
+    ASSOCIATORS,
+    clusters,
+    events,
+    jpda,
+    nearest,
+    pda,
+)
 from tracking_core.batches import Floats, Ints
 
 Scene = tuple[Ints, Ints, Floats, Floats, int]
@@ -93,9 +101,14 @@ def test_associate_permutes_with_tracks_and_plots(associate: Associator, density
 
 
 @every_method
-def test_associate_batch_equals_its_clusters_one_by_one(associate: Associator) -> None:
-    """Scenes far apart do not influence each other."""
+@pytest.mark.parametrize('few', [events.FEW, 0], ids=['written down', 'in steps'])
+def test_associate_batch_equals_its_clusters_one_by_one(
+    associate: Associator, few: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Scenes far apart do not influence each other, small and large ones, however summed."""
+    monkeypatch.setattr(events, 'FEW', few)
     scenes = [make_scene(seed, 1 + seed % 6, 1 + seed % 5) for seed in range(20)]
+    scenes.append(make_scene(20, 12, 12))
     first_track = np.cumsum([0] + [len(scene[3]) for scene in scenes])
     first_plot = np.cumsum([0] + [scene[4] for scene in scenes])
     shifted = [
