@@ -160,7 +160,7 @@ class RadarTrackerConfig:
         doc='published state: the mixture of the modes, or the most probable mode',
     )  # fmt: skip
     association: str = parameter(
-        'jpda', unit='', choices=tuple(ASSOCIATORS), doc='how plots are shared among tracks',
+        'jpda_star', unit='', choices=tuple(ASSOCIATORS), doc='how plots are shared among tracks',
         live=True,
     )  # fmt: skip
     lifecycle: str = parameter(

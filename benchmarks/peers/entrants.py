@@ -17,7 +17,7 @@ from benchmarks.peers.scenes import Knowledge
 from tracking_core.batches import Floats, Ints
 
 OURS = 'ours'
-VARIANTS = ('ours_star', 'ours_gnn')  # of our own
+VARIANTS = ('ours_jpda', 'ours_gnn')  # of our own
 
 
 class Runner(Protocol):
@@ -65,8 +65,8 @@ def _from(module: str, name: str, *arguments: Any) -> Callable[[Knowledge], Runn
 
 _STONE_SOUP = {'stonesoup': 'stonesoup', 'pyehm': 'pyehm'}
 ENTRANTS = {
-    OURS: Entrant('contact_tracking, JPDA', ours, {}),
-    'ours_star': Entrant('contact_tracking, JPDA*', partial(ours, association='jpda_star'), {}),
+    OURS: Entrant('contact_tracking', ours, {}),
+    'ours_jpda': Entrant('contact_tracking, JPDA', partial(ours, association='jpda'), {}),
     'ours_gnn': Entrant(
         'contact_tracking, global nearest', partial(ours, association='global_nearest'), {}
     ),

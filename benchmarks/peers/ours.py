@@ -20,9 +20,9 @@ _LIFETIME = 600.0  # of a contact in view [s]
 
 
 class OurRadar:
-    """IMM with two modes, existence probability; JPDA with exact marginals or another."""
+    """IMM with two modes, existence probability; JPDA* or another."""
 
-    def __init__(self, knowledge: Knowledge, association: str = 'jpda') -> None:
+    def __init__(self, knowledge: Knowledge, **values: str) -> None:
         volume = np.pi * knowledge.region**2
         self._tracker = RadarTracker(
             with_values(
@@ -30,7 +30,6 @@ class OurRadar:
                 {
                     'scan.assembly': 'snapshot',
                     'sensor.position_sd': knowledge.noise,
-                    'association': association,
                     'sensor.detection_probability': knowledge.detection_probability,
                     'sensor.range_max': knowledge.region,
                     'clutter_density': max(knowledge.clutter_density, 1.0 / (10.0 * volume)),
@@ -42,6 +41,7 @@ class OurRadar:
                     'initiation.speed_sd': knowledge.speed_sd,
                     'existence.new_contacts': knowledge.arrivals,
                     'existence.lifetime': _LIFETIME,
+                    **values,
                 },
             )
         )
@@ -57,13 +57,12 @@ class OurRadar:
 class OurSonar:
     """Kalman filter with two modes, existence probability; JPDA or another."""
 
-    def __init__(self, knowledge: Knowledge, association: str = 'jpda') -> None:
+    def __init__(self, knowledge: Knowledge, **values: str) -> None:
         self._tracker = SonarTracker(
             with_values(
                 SonarTrackerConfig(),
                 {
                     'sensor.bearing_sd': knowledge.noise,
-                    'association': association,
                     'sensor.detection_probability': knowledge.detection_probability,
                     'sensor.sector_width': 2.0 * knowledge.region,
                     'clutter_density': knowledge.clutter_density,
@@ -75,6 +74,7 @@ class OurSonar:
                     'existence.new_contacts': knowledge.arrivals,
                     'merge.distance': 0.0,
                     'ranging.enabled': False,
+                    **values,
                 },
             )
         )
@@ -87,6 +87,6 @@ class OurSonar:
         return tracks.id[tracks.confirmed], bearing[tracks.confirmed, None]
 
 
-def ours(knowledge: Knowledge, association: str = 'jpda') -> OurRadar | OurSonar:
-    """Return the tracker for plots of one or two coordinates."""
-    return (OurSonar if knowledge.axes == 1 else OurRadar)(knowledge, association)
+def ours(knowledge: Knowledge, **values: str) -> OurRadar | OurSonar:
+    """Return the tracker for plots of one or two coordinates; `values` are parameters."""
+    return (OurSonar if knowledge.axes == 1 else OurRadar)(knowledge, **values)
