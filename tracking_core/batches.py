@@ -247,7 +247,7 @@ class Association:
 
     probability: Floats  # (P,) posterior that this pair is right
     miss: Floats  # (T,) posterior that no plot is the track's; with its pairs it sums to 1
-    approximate: Bools  # (T,) belief propagation stood in for exact marginals
+    approximate: Bools  # (T,) whose cluster was too large for exact marginals
 
 
 @dataclass(frozen=True)
@@ -271,7 +271,7 @@ class StepReport:
     plots: int = 0  # used in this step
     held: int = 0  # kept for the next scan: their antenna pass is not over
     pairs: int = 0
-    approximate: int = 0  # tracks whose marginals are from belief propagation
+    approximate: int = 0  # tracks in clusters too large for exact marginals
     started: int = 0
     merged: int = 0
     refused: int = 0  # new tracks that did not fit in max_tracks

@@ -43,7 +43,7 @@ class Look:
     waiting: Bools  # (M,) in the gate of a track that the antenna has not passed yet
     passed: Bools  # of the tracks that live on: which were worked on
     pairs: int
-    approximate: int  # tracks with marginals from belief propagation
+    approximate: int  # tracks in clusters too large for exact marginals
     again: bool  # the antenna has passed a track once more in the same scan
 
     def and_then(self, second: Look) -> Look:
