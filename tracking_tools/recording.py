@@ -18,9 +18,10 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import PointCloud2
+from std_srvs.srv import Trigger
 
 from tracking_tools.node_process import NodeFailed
-from tracking_tools.peer import Peer
+from tracking_tools.peer import AGAIN, Peer
 
 DISCOVERY = 15.0  # for the node and us to find each other [s]
 ANSWER = 10.0  # ... and for the node to answer one message
@@ -40,7 +41,7 @@ class Player:
     Plays plots to a tracker.
 
     Publishers: plots (sensor_msgs/PointCloud2, reliable, keep last 50) and, where it has a name,
-    own ship (nav_msgs/Odometry, the same). Subscriber: tracks.
+    own ship (nav_msgs/Odometry, the same). Subscriber: tracks. Client: the tracker's reset.
 
     Parameters
     ----------
@@ -54,7 +55,8 @@ class Player:
     """
 
     def __init__(self, peer: Peer, plots: str, tracks: str, own_ship: str = '') -> None:
-        self._peer = peer
+        self._peer, self._reset = peer, f'{tracks.rpartition("/")[0]}/reset'
+        self._is_known = False  # to the tracker, which has been heard
         self._answers: list[bytes] = []
         self._newest: bytes | None = None  # odometry of own ship
         self._plots = peer.tell(PointCloud2, plots)
@@ -102,7 +104,10 @@ class Player:
         self._answers.clear()
 
         def send(attempt: int) -> None:
-            # A second copy of what did arrive is refused by its stamp, and does no harm.
+            # A second copy of what did arrive is refused by its stamp, and does no harm. But a
+            # tracker that did not know us yet has answered nobody: let it begin anew.
+            if attempt and not self._is_known:
+                self._peer.call(Trigger, self._reset, Trigger.Request(), ANSWER, AGAIN)
             if attempt:
                 self._send_own_ship()
             self._plots.publish(question)
@@ -113,6 +118,7 @@ class Player:
             f'tracks of the plots at {stamp[0]}.{stamp[1]:09d}',
             deadline=ANSWER,
         )
+        self._is_known = True
         return self._answers[-1]
 
 
