@@ -14,6 +14,8 @@ from tracking_core.lifecycle_config import MergeConfig
 from tracking_core.linalg import inverse, wrap_angle
 from tracking_core.rows import take_rows
 
+_SHARE = 1.0 / 3.0  # of its plots; a true double is one soon after its start
+
 
 def end_doubles(
     tracks: Tracks,
@@ -27,8 +29,8 @@ def end_doubles(
 
     Contacts that cross are near each other for a look or two, doubles stay so: a confirmed track
     goes after `config.looks` looks in a row, a tentative one at once. Contacts that have plots in
-    common may stay near for long, but were apart before they met: of such, a track goes once it
-    was a double for as many looks as it had a plot without being one.
+    common may stay near for long, but were apart before they met: of such, a track must have been
+    a double for a third of all its plots.
 
     Parameters
     ----------
@@ -47,8 +49,7 @@ def end_doubles(
     near = duplicates(tracks, config.distance, is_angular)
     looks = np.where(near, tracks.doubled + 1, 0)
     tracks = replace(tracks, doubled=np.where(passed, looks, tracks.doubled))
-    apart = tracks.hits - tracks.doubled if is_unresolved else 0
-    patience = np.maximum(config.looks, apart)
+    patience = np.maximum(config.looks, _SHARE * tracks.hits if is_unresolved else 0)
     return tracks, near & (~tracks.confirmed | (tracks.doubled >= patience))
 
 

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.testing import assert_allclose
 import pytest
 
+from benchmarks.sonar_data import preset
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from studies.v0_crossing import kept, OURS, PAPER, RESOLUTION, run, SEED
 from studies.v0_figures import AFTER, BEFORE
 from studies.v0_scenes import truth
-from studies.voronina_2019 import TURNING
 from tracking_core.batches import Bearings
 from tracking_core.config import with_values
 from tracking_core.linalg import wrap_angle
@@ -48,8 +48,9 @@ def test_ids_are_kept_through_the_crossing(name: str, misjudged: float) -> None:
 
 @pytest.mark.slow
 def test_contact_that_turns_towards_the_other_while_merged_keeps_its_id() -> None:
-    """They stay one mark for fourteen minutes, in which neither is ended as the other's double."""
-    one = run('towards', SEED + 1, TURNING)
+    """They stay one mark for fourteen minutes; neither is ended as the double of the other."""
+    values = {**preset('passive_linear_array'), 'ranging.enabled': False}
+    one = run('towards', SEED + 1, values)
     held, swapped = kept(one, BEFORE, AFTER)
     assert held.all()
     assert not swapped

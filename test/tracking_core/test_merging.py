@@ -128,13 +128,13 @@ def test_end_doubles_forgets_those_that_part() -> None:
     assert_array_equal(parted.doubled, [0, 0])
 
 
-@pytest.mark.parametrize('apart', [1, 14])
-def test_end_doubles_spares_contacts_that_were_apart_before(apart: int) -> None:
-    """Of unresolved contacts one goes after as many looks as it was apart, at least three."""
+@pytest.mark.parametrize(('apart', 'looks'), [(1, 3), (15, 8)])
+def test_end_doubles_spares_contacts_that_were_apart_before(apart: int, looks: int) -> None:
+    """Of unresolved contacts one goes after a double's third of its plots, at least three."""
     tracks = make_tracks([[0, 10, 0, 0], [3, 10, 0, 0]], confirmed=True, hits=[99, apart])
-    for look in range(1, max(apart, 3) + 1):
+    for look in range(1, looks + 1):
         tracks = replace(tracks, hits=tracks.hits + 1)
         tracks, ended = end_doubles(
             tracks, np.ones(2, bool), MergeConfig(looks=3), is_unresolved=True
         )
-        assert_array_equal(ended, [False, look == max(apart, 3)])
+        assert_array_equal(ended, [False, look == looks])
