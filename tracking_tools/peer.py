@@ -10,6 +10,7 @@ in time is named in the error.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from itertools import count
 import math
 import time
@@ -145,17 +146,18 @@ class Peer:
 
     def call(
         self, kind: Any, service: str, request: Any, deadline: float = DEADLINE,
-        again: float = math.inf,
+        again: float = math.inf, before: Callable[[], object] = _go_on,
     ) -> Any:  # fmt: skip
         """
         Return the answer of a service.
 
-        A node that does not know the asking one yet loses its answer. A service that changes
-        nothing may be asked once more whenever there was none for `again` seconds.
+        A node that does not know us yet loses its answer. What changes nothing may be asked once
+        more, `again` seconds later; or ask `before` what was announced later, and is answered.
         """
         client, asked = self.node.create_client(kind, service), []
         try:
             self.spin_until(client.service_is_ready, f'service {service}', deadline)
+            before()
             self.ask(
                 lambda _: asked.append(client.call_async(request)),
                 lambda: any(future.done() for future in asked),
@@ -167,8 +169,7 @@ class Peer:
 
     def state(self, node: str, deadline: float = DEADLINE) -> str:
         """Return the state of a lifecycle node: unconfigured, inactive, active or finalized."""
-        request = GetState.Request()
-        answer = self.call(GetState, f'{node}/get_state', request, deadline, AGAIN)
+        answer = self.call(GetState, f'{node}/get_state', GetState.Request(), deadline, AGAIN)
         return str(answer.current_state.label)
 
     def wait_until_active(self, node: str, deadline: float = DEADLINE) -> None:
@@ -194,4 +195,5 @@ class Peer:
         """
         number = getattr(Transition, f'TRANSITION_{transition.upper()}')
         request = ChangeState.Request(transition=Transition(id=number))
-        return bool(self.call(ChangeState, f'{node}/change_state', request).success)
+        known = partial(self.state, node)
+        return bool(self.call(ChangeState, f'{node}/change_state', request, before=known).success)
