@@ -109,7 +109,8 @@ def _size(batch: Any) -> int:
 
 def with_jpda(traffic: Traffic, largest: int = LARGEST) -> Cost:
     """Return the cost of JPDA with belief propagation in clusters of more tracks than this."""
-    with patch.dict(ASSOCIATORS, {'jpda_star': partial(jpda, largest=largest)}):
+    usual = RadarTrackerConfig().association
+    with patch.dict(ASSOCIATORS, {usual: partial(jpda, largest=largest)}):
         return cost(traffic)
 
 
@@ -153,7 +154,7 @@ def _ratios(
     yield _judge('bytes per track', max(c.bytes_per_track for c in plain.values()), 1000.0)
 
 
-def usual(traffic: Traffic, runs: int) -> Cost:
+def middle_one(traffic: Traffic, runs: int) -> Cost:
     """Return the cost of the run that is in the middle of so many."""
     return sorted((cost(traffic) for _ in range(runs)), key=lambda c: c.total)[runs // 2]
 
@@ -163,11 +164,13 @@ def study(dimensions: int, sizes: Sequence[int], middle: int, runs: int = 1) -> 
     print(f'\n{dimensions}-D radar, {"two planes" if dimensions > 2 else "one plane"}')
     plain: dict[int, Cost] = {}
     for size in sizes:
-        plain[size] = usual(Traffic(size, dimensions), runs)
+        plain[size] = middle_one(Traffic(size, dimensions), runs)
         if size == sizes[0]:
             print(_head(plain[size].steps))
         print(_line(str(size), plain[size]), flush=True)
-    denser = {x: usual(Traffic(middle, dimensions, clutter=x), runs) for x in (1.0, 4.0, 16.0)}
+    denser = {
+        x: middle_one(Traffic(middle, dimensions, clutter=x), runs) for x in (1.0, 4.0, 16.0)
+    }
     for factor, c in denser.items():
         print(_line(f'{middle}, clutter x {factor:.0f}', c))
     exact, rough = (with_jpda(Traffic(middle, dimensions), most) for most in (LARGEST, 0))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the comparison with other trackers: ours alone, all that are installed, and its judge."""
 
+from itertools import permutations
 import json
 from pathlib import Path
 
@@ -94,6 +95,15 @@ def test_race_stops_who_is_over_the_limit() -> None:
     lap = race(seen, {'ours': ENTRANTS['ours']}, 0.0)['ours']
     row = compare('slow', [seen], [lap], [exact(seen)])
     assert (row.scans, row.wanted, row.finished, row.figures) == (0, 10, False, {})
+
+
+def test_race_gives_every_tracker_every_place() -> None:
+    """Nobody always comes after the same one, whose data fill the caches."""
+    told: list[str] = []
+    race(scene(scans=30), dict.fromkeys('abc', ENTRANTS['ours']), 1e9, told.append)
+    assert {''.join(told[k : k + 3]) for k in range(0, 90, 3)} == {
+        ''.join(order) for order in permutations('abc')
+    }
 
 
 def test_where_better_names_the_better_tracker_only() -> None:

@@ -16,12 +16,12 @@ from math import comb, factorial
 import numpy as np
 
 from tracking_core.association.layout import Layout
+from tracking_core.association.sums import NEVER
 from tracking_core.batches import Floats, Ints
 
 # Products that take less time than the steps do. BLAS takes no second thread for so few, whose
 # sums could differ in the last digit: the same input gives the same bytes.
 FEW = 2**18
-_NEVER = -1e9  # log weight of what cannot be; times 0 it is 0
 
 
 def are_few(layout: Layout) -> bool:
@@ -47,8 +47,8 @@ def sum_up_events(layout: Layout, gain: Floats, best_only: bool = False) -> Floa
     """
     rows, columns, size = int(layout.rows.max()), int(layout.columns.max()), len(layout.rows)
     where, events = (layout.row, layout.column, layout.cluster), _events(rows, columns)
-    table = np.full((rows, columns, size), _NEVER)
-    table[where] = np.maximum(gain, _NEVER)
+    table = np.full((rows, columns, size), NEVER)
+    table[where] = np.maximum(gain, NEVER)
     log_weight = events.pairs.T @ table.reshape(-1, size)  # (N, C)
     weight = np.exp(log_weight - log_weight.max(axis=0))
     if best_only:

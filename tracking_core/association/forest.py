@@ -17,24 +17,22 @@ from scipy.sparse.csgraph import minimum_spanning_tree
 from tracking_core.association.clusters import Contest
 from tracking_core.association.global_nearest import global_nearest
 from tracking_core.association.jpda import jpda
+from tracking_core.association.sums import NEVER
 from tracking_core.batches import Bools, Floats
-
-_NEVER = -1e9  # log weight that no event has
 
 
 def sum_up_forest(contest: Contest) -> Floats:
     """Return the probability of each pair (P,), 0 for those that do not stay."""
     probability, stays = np.zeros(len(contest.track)), _forest(contest)
     track, plot, gain = contest.track[stays], contest.plot[stays], contest.gain[stays]
-    probability[stays] = jpda(
-        track, plot, gain, np.zeros(contest.tracks), contest.plots
-    ).probability  # fmt: skip
+    solved = jpda(track, plot, gain, np.zeros(contest.tracks), contest.plots)
+    probability[stays] = solved.probability
     return probability
 
 
 def _forest(contest: Contest) -> Bools:
     """Return which pairs (P,) stay."""
-    track, plot, gain = contest.track, contest.plot, np.maximum(contest.gain, _NEVER)
+    track, plot, gain = contest.track, contest.plot, np.maximum(contest.gain, NEVER)
     nothing = np.zeros(contest.tracks)
     best = global_nearest(track, plot, gain, nothing, contest.plots).probability > 0.5
     of_track, of_plot = nothing, np.zeros(contest.plots)

@@ -19,11 +19,10 @@ from tracking_core.association.events import are_few, sum_up_events
 from tracking_core.association.forest import sum_up_forest
 from tracking_core.association.layout import lay_out
 from tracking_core.association.permutations import comparisons, sum_up_best
-from tracking_core.association.sums import choose
+from tracking_core.association.sums import choose, NEVER
 from tracking_core.batches import Association, Bools, Floats, Ints
 
 LARGEST = 30_000  # comparisons in a cluster: seven tracks on eight plots, four on eighteen
-_NEVER = -1e9  # log weight that no event has
 
 
 def jpda_star(
@@ -93,7 +92,7 @@ def _duel(contest: Contest) -> Floats:
     """
     order = np.argsort(contest.plot, kind='stable')
     one, two = order[0::2], order[1::2]  # pairs of the first track, of the second
-    gain = np.maximum(contest.gain, _NEVER)
+    gain = np.maximum(contest.gain, NEVER)
     by_lead = np.lexsort((gain[one] - gain[two], contest.cluster[one]))
     one, two = one[by_lead], two[by_lead]
     cluster = contest.cluster[one]

@@ -15,6 +15,7 @@ from tracking_core.batches import Floats, Ints
 from tracking_core.linalg import first_rows
 
 LOG_2 = np.log(2.0)
+NEVER = -1e9  # log weight of what cannot be; times 0 it is 0
 
 
 def choose(track: Ints, gain: Floats, tracks: int) -> tuple[Floats, Floats, Floats]:
