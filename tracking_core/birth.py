@@ -60,7 +60,7 @@ def start_tracks(
         starts = one_point(fresh, density.existence, setup.initiation)
     else:
         starts = two_point(
-            state.seeds, fresh, density, interval,
+            state.seeds, fresh, density, scan.coverage, interval,
             setup.sensor.detection_probability, setup.least_existence, setup.initiation,
             setup.sensor.is_angular,
         )  # fmt: skip

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 import math
 
 import numpy as np
@@ -13,6 +15,7 @@ from tracking_core.linalg import wrap_angle
 
 _FEW = 1_500  # track-plot combinations that are all compared sooner than sorted
 _MANY = 500_000  # ... for which the cells are worth their price
+_AT_ONCE = 2**14  # candidates whose arrays stay near the processor
 _SAMPLED = 64  # boxes that tell the usual size
 _MOST_CELLS, _CELLS_PER_PLOT = 2**16, 8  # of the grid: what 16 bits number, and not too many
 
@@ -51,14 +54,47 @@ def box_pairs(
     if combinations <= min(_FEW, most):
         return _compare_all(centre, half_size, plots)
     swept = combinations <= _MANY or plots.shape[1] == 1
-    find = _sweep if swept else _touched
-    track, plot = find(centre, half_size, plots, most)
-    # What a plot does not measure, NaN, keeps nobody out; a sweep has dealt with the first axis.
-    for axis in range(int(swept), plots.shape[1]):
+    runs = (_sweep if swept else _touched)(centre, half_size, plots)
+    # What a plot does not measure, NaN, keeps nobody out. A sweep has dealt with the first axis,
+    # cells have with most of the first two.
+    d = plots.shape[1]
+    axes = range(1, d) if swept else (*range(2, d), 0, 1)
+    found = [_inside(centre, half_size, plots, part, axes) for part in runs.parts(most)]
+    track, plot = found[0] if len(found) == 1 else map(np.concatenate, zip(*found, strict=True))
+    return _in_order(track, plot, len(plots))
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """Tracks with the plots that are perhaps in their boxes: runs of the plots in some order."""
+
+    track: Ints  # (R,) ascending
+    first: Ints  # (R,) places in the order
+    count: Ints  # (R,)
+    order: Ints  # (M,) plots
+
+    def parts(self, most: int) -> Iterator[tuple[Ints, Ints]]:
+        """Yield tracks (C,) with plots (C,), not too many at once and `most` in all."""
+        ends, count = self.count.cumsum(), self.count
+        total = ends[-1] if len(ends) else 0
+        if total > most:
+            count = np.where(ends > most, 0, count)
+        cuts = ends.searchsorted(np.arange(_AT_ONCE, total, _AT_ONCE), 'right')
+        for part in map(slice, (0, *cuts), (*cuts, len(ends))):
+            place = _numbers(self.first[part], count[part])
+            yield self.track[part].repeat(count[part]), self.order[place]
+
+
+def _inside(
+    centre: Floats, half_size: Floats, plots: Floats, pairs: tuple[Ints, Ints], axes: Iterable[int]
+) -> tuple[Ints, Ints]:
+    """Return those of the pairs whose plot is in the box on all these axes."""
+    track, plot = pairs
+    for axis in axes:
         apart = np.abs(plots[:, axis].take(plot) - centre[:, axis].take(track))
         inside = (~(apart > half_size[:, axis].take(track))).nonzero()[0]
         track, plot = track.take(inside), plot.take(inside)
-    return _in_order(track, plot, len(plots))
+    return track, plot
 
 
 def _compare_all(centre: Floats, half_size: Floats, plots: Floats) -> tuple[Ints, Ints]:
@@ -71,15 +107,14 @@ def _compare_all(centre: Floats, half_size: Floats, plots: Floats) -> tuple[Ints
     return track, plot
 
 
-def _sweep(centre: Floats, half_size: Floats, plots: Floats, most: int) -> tuple[Ints, Ints]:
-    """Return tracks (C,) with the plots (C,) that are near enough in the first coordinate."""
+def _sweep(centre: Floats, half_size: Floats, plots: Floats) -> _Runs:
+    """Return the plots that are near enough in the first coordinate."""
     x, middle, half = plots[:, 0], centre[:, 0], half_size[:, 0]
     order = x.argsort(kind='stable')
     along = x[order]
     first = along.searchsorted(middle - half, 'left')
     count = np.maximum(along.searchsorted(middle + half, 'right') - first, 0)
-    count[count.cumsum() > most] = 0
-    return np.arange(len(centre)).repeat(count), order[_runs(first, count)]
+    return _Runs(np.arange(len(centre)), first, count, order)
 
 
 def sector_pairs(
@@ -97,53 +132,54 @@ def sector_pairs(
     count = around.searchsorted(middle + half, 'right') - first
     count[count.cumsum() > most] = 0
     track = np.arange(len(centre)).repeat(count)
-    place = _runs(first, count)
+    place = _numbers(first, count)
     return _in_order(track, order[place % max(len(order), 1)], M)
 
 
-def _touched(centre: Floats, half_size: Floats, plots: Floats, most: int) -> tuple[Ints, Ints]:
-    """Return tracks (C,) with the plots (C,) in the cells that their boxes touch."""
-    edge = plots[:, :2].min(axis=0)
-    extent = plots[:, :2].max(axis=0) - edge
-    size, shape = _cells(extent, half_size, len(plots))
-    (columns, rows), last = shape, shape - 1
-    column, row = np.minimum(((plots[:, :2] - edge) / size).astype(np.int64), last).T
+def _touched(centre: Floats, half_size: Floats, plots: Floats) -> _Runs:
+    """Return the plots in the cells that the boxes touch."""
+    places, middle, half = plots.T[:2], centre.T[:2], half_size.T[:2]
+    edge = places.min(axis=1, keepdims=True)
+    extent = places.max(axis=1, keepdims=True) - edge
+    size, shape = _cells(extent, half, len(plots))
+    (columns, rows), last = shape[:, 0], shape - 1
+    column, row = np.minimum(((places - edge) / size).astype(np.int64), last)
     cell = (row * columns + column).astype(np.uint16)  # short: sorted by counting
     order = cell.argsort(kind='stable')
     start = np.zeros(columns * rows + 1, np.int64)
     np.bincount(cell, minlength=columns * rows).cumsum(out=start[1:])
 
-    low, high = centre[:, :2] - half_size[:, :2], centre[:, :2] + half_size[:, :2]
-    left, bottom = _bound(np.floor((low - edge) / size), 0, shape).astype(np.int64).T
-    right, top = _bound(np.floor((high - edge) / size), -1, last).astype(np.int64).T
+    middle = middle - edge
+    left, bottom = _bound(np.floor((middle - half) / size), 0, shape).astype(np.int64)
+    right, top = _bound(np.floor((middle + half) / size), -1, last).astype(np.int64)
     touched = np.maximum(top - bottom + 1, 0)
     owner = np.arange(len(centre)).repeat(touched)
-    base = _runs(bottom, touched) * columns
+    base = _numbers(bottom, touched) * columns
     first = start[base + left.take(owner)]
     count = np.maximum(start[base + right.take(owner) + 1] - first, 0)
-    count[count.cumsum() > most] = 0
-    return owner.repeat(count), order[_runs(first, count)]
+    return _Runs(owner, first, count, order)
 
 
 def _cells(extent: Floats, half_size: Floats, plots: int) -> tuple[Floats, Ints]:
-    """Return width and height of the cells, and how many there are each way."""
-    usual = np.sort(half_size[:: max(len(half_size) // _SAMPLED, 1), :2], axis=0)
-    wide, high = np.minimum(extent / np.maximum(usual[len(usual) // 2], 1e-9), _MOST_CELLS) + 1.0
+    """Return width and height of the cells (2, 1), and how many there are each way (2, 1)."""
+    usual = np.sort(half_size[:, :: max(half_size.shape[1] // _SAMPLED, 1)], axis=1)
+    usual = np.maximum(usual[:, usual.shape[1] // 2, None], 1e-9)
+    wide, high = np.minimum(extent / usual, _MOST_CELLS)[:, 0] + 1.0
     surplus = math.sqrt(wide * high / min(_MOST_CELLS, _CELLS_PER_PLOT * plots))
     columns, rows = (max(int(number / max(surplus, 1.0)), 1) for number in (wide, high))
-    shape = np.array([min(columns, _MOST_CELLS // rows), min(rows, _MOST_CELLS // columns)])
+    shape = np.array([[min(columns, _MOST_CELLS // rows)], [min(rows, _MOST_CELLS // columns)]])
     return np.maximum(extent / shape, 1e-9) * (1.0 + 1e-9), shape
 
 
 def _in_order(track: Ints, plot: Ints, plots: int) -> tuple[Ints, Ints]:
-    """Sort pairs by track, then plot."""
-    both = track * plots + plot
+    """Sort pairs, whose tracks are in order, by plot, too."""
+    first = track * plots
+    both = first + plot
     both.sort()
-    track = both // plots
-    return track, both - track * plots
+    return track, both - first
 
 
-def _runs(first: Ints, count: Ints) -> Ints:
+def _numbers(first: Ints, count: Ints) -> Ints:
     """Return first, first + 1, ... for each, `count` numbers of it, all in a row."""
     ends = count.cumsum()
     return np.asarray((first - ends + count).repeat(count) + np.arange(count.sum()))

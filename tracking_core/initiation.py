@@ -8,11 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracking_core.batches import Floats, Ints, Seeds
+from tracking_core.batches import Coverage, Floats, Ints, Seeds
 from tracking_core.composition import Density
 from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import wrap_angle
+from tracking_core.looks import longest_since
 from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_variance
 from tracking_core.rows import take, take_rows
 
@@ -58,6 +59,7 @@ def two_point(
     seeds: Seeds,
     fresh: Seeds,
     density: Density,
+    coverage: Coverage,
     interval: float,
     detection_probability: float,
     least_existence: float,
@@ -73,6 +75,8 @@ def two_point(
         Older and fresh unclaimed plots.
     density : Density
         Of false plots and of new contacts, in plot space.
+    coverage : Coverage
+        What the scan of the fresh plots swept.
     interval : float
         Time between two looks [s]; plots of one look make no pair.
     detection_probability : float
@@ -95,7 +99,7 @@ def two_point(
     most = MOST_NEW * seeds.free
     seeds = take(seeds, most * alone >= least_existence * (1.0 - most + most * alone))
 
-    old, new, step, dt = _within_reach(seeds, fresh, 0.5 * interval, config, is_angular)
+    old, new, step, dt = _within_reach(seeds, fresh, coverage, 0.5 * interval, config, is_angular)
     if len(old) == 0:
         return Starts.none(step.shape[1])
     looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
@@ -113,17 +117,18 @@ def two_point(
 
 
 def _within_reach(
-    seeds: Seeds, fresh: Seeds, shortest: float, config: InitiationConfig, is_angular: bool
-) -> tuple[Ints, Ints, Floats, Floats]:
+    seeds: Seeds, fresh: Seeds, coverage: Coverage, shortest: float, config: InitiationConfig,
+    is_angular: bool,
+) -> tuple[Ints, Ints, Floats, Floats]:  # fmt: skip
     """Return the rows (K,), (K,) of pairs, how far (K, d) they are apart and how long (K,) [s]."""
     d = seeds.position.shape[1]
     if len(seeds) == 0 or len(fresh) == 0:
         return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, d)), np.zeros(0)
-    longest = np.maximum(fresh.time.max() - seeds.time, 0.0)
+    longest = longest_since(seeds.time, fresh.time.max(), coverage)
     variances = [plots.covariance.diagonal(0, 1, 2) for plots in (seeds, fresh)]
     noise = _NOISE_SIGMAS * np.sqrt(variances[0] + variances[1].max(axis=0))
     find = sector_pairs if is_angular else box_pairs
-    reach = limits(d, config) * longest[:, None] + noise
+    reach = (limits(d, config)[:, None] * longest).T + noise
     old, new = find(seeds.position, reach, fresh.position, _MOST_PAIRS)
     dt = fresh.time[new] - seeds.time[old]
     step = take_rows(fresh.position, new) - take_rows(seeds.position, old)

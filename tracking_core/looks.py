@@ -76,6 +76,30 @@ def _travel(azimuth: Floats, coverage: Coverage) -> Floats:
     return np.asarray(ahead % (2.0 * np.pi))
 
 
+def longest_since(time: Floats, latest: float, coverage: Coverage) -> Floats:
+    """
+    Return how much later than these (S,) plots at the same place can be, in this scan (S,) [s].
+
+    A rotating antenna comes back after whole turns. The margin is for contacts that move.
+
+    Parameters
+    ----------
+    time : (S,) array
+        Of earlier plots [s].
+    latest : float
+        Time of the last plot of the scan [s].
+    coverage : Coverage
+        What the scan swept.
+
+    """
+    longest = np.maximum(latest - time, 0.0)
+    if coverage.rotation_rate == 0.0:
+        return np.asarray(longest)
+    period = 2.0 * np.pi / abs(coverage.rotation_rate)
+    turns = np.floor(longest / period + LARGEST_MARGIN)
+    return np.minimum(longest, (turns + LARGEST_MARGIN) * period)
+
+
 def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
     """
     Return how long the antenna needs from a track's middle to the edge of its gate (T,) [s].

@@ -73,13 +73,14 @@ def duplicates(tracks: Tracks, distance: float, is_angular: bool = False) -> Boo
     one, other = find(position, np.sqrt(2.0 * mean.shape[1]) * distance * sd, position)
     apart = one != other
     first, second = np.minimum(one, other)[apart], np.maximum(one, other)[apart]
-    for m, P in moments:
-        if len(first) == 0:
-            return lost
-        dt, bound = tracks.time[second] - tracks.time[first], distance**2 * m.shape[1]
-        for part in (slice(0, None, 2), slice(None)):  # places are no farther apart than states
-            near = _distance_squared(m, P, first, second, dt, is_angular, part) <= bound
-            first, second, dt = first[near], second[near], dt[near]
+    for part in (slice(0, None, 2), slice(None)):  # places are no farther apart than states
+        for m, P in moments:
+            if len(first) == 0:
+                return lost
+            dt = tracks.time[second] - tracks.time[first]
+            distances = _distance_squared(m, P, first, second, dt, is_angular, part)
+            near = distances <= distance**2 * m.shape[1]
+            first, second = first[near], second[near]
     rank = _rank(tracks)
     lost[np.where(rank[first] < rank[second], second, first)] = True
     return lost

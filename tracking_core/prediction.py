@@ -83,13 +83,13 @@ def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]
     margin = margins(position, size, scan.coverage)
     begun = looks.time - margin <= scan.coverage.end_time
     if begun.any():
-        ahead = (looks.time - time)[begun, None]
+        opened, late = (looks.time - margin)[begun].min(), looks.time[begun]
+        plots = (scan.time >= opened).nonzero()[0]  # few: others cannot be in these gates
+        place = position[begun] + velocity[begun] * (late - time[begun])[:, None]
         box = np.repeat(size[begun, None], 2, axis=1)
-        track, plot = box_pairs(
-            position[begun] + velocity[begun] * ahead, box, scan.position[:, :2]
-        )
-        early = np.abs(scan.time[plot] - looks.time[begun][track]) <= margin[begun][track]
-        waiting[plot[early]] = True
+        track, plot = box_pairs(place, box, take_rows(scan.position[:, :2], plots))
+        early = np.abs(scan.time[plots[plot]] - late[track]) <= margin[begun][track]
+        waiting[plots[plot[early]]] = True
     # A little more than complete, lest a contact beside the cut takes turns at waiting or not.
     complete = looks.time + 2.0 * margin <= scan.coverage.end_time
     return bool(complete.any()), waiting

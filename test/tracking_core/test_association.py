@@ -101,9 +101,9 @@ def test_associate_permutes_with_tracks_and_plots(associate: Associator, density
 
 
 @every_method
-@pytest.mark.parametrize('few', [events.FEW, 0], ids=['written down', 'in steps'])
+@pytest.mark.parametrize('few', [events.FEW, 0 * events.FEW], ids=['written down', 'in steps'])
 def test_associate_batch_equals_its_clusters_one_by_one(
-    associate: Associator, few: int, monkeypatch: pytest.MonkeyPatch
+    associate: Associator, few: Ints, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Scenes far apart do not influence each other, small and large ones, however summed."""
     monkeypatch.setattr(events, 'FEW', few)

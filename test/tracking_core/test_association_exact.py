@@ -102,10 +102,21 @@ def assert_exact(
     assert_allclose(result.miss, miss, rtol=0.0, atol=1e-9)
 
 
-@pytest.fixture(params=[events.FEW, 0], ids=['written down', 'in steps'])
+@pytest.fixture(params=[events.FEW, 0 * events.FEW], ids=['written down', 'in steps'])
 def few(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let small clusters be summed event by event, then in steps as larger ones are."""
     monkeypatch.setattr(events, 'FEW', request.param)
+
+
+def test_few_events_are_few() -> None:
+    """BLAS would use more threads for more, and their sums differ from run to run."""
+    assert not events.have_few(np.array([3, 20, 6]), np.array([9, 2, 6])).any()
+    rows = np.arange(2, 6)
+    columns = events.FEW[rows]
+    assert events.have_few(rows, columns).all()
+    assert events.have_few(columns, rows).all()
+    for size in zip(rows.tolist(), columns.tolist(), strict=True):
+        assert events.products(*size) <= events.MOST_PRODUCTS
 
 
 @pytest.mark.usefixtures('few')
@@ -135,7 +146,7 @@ def test_jpda_is_the_same_in_small_batches(monkeypatch: pytest.MonkeyPatch) -> N
     """Splitting work for memory, or not merging small batches, changes nothing."""
     scene = make_blocks(8)
     whole = jpda(*scene)
-    monkeypatch.setattr(events, 'FEW', 0)
+    monkeypatch.setattr(events, 'FEW', 0 * events.FEW)
     monkeypatch.setattr(exact, 'MEMORY', 1)
     monkeypatch.setattr(exact, 'PADDING', 0)
     split = jpda(*scene)
@@ -254,7 +265,7 @@ def test_jpda_star_without_loops_is_near(monkeypatch: pytest.MonkeyPatch) -> Non
     """What is left out in large clusters would on average change a probability by 0.03."""
     scenes = [make_scene(seed, 5, 6, 0.8, 4.0) for seed in range(100)]
     right = [jpda_star(*scene).probability for scene in scenes]
-    monkeypatch.setattr(events, 'FEW', 0)
+    monkeypatch.setattr(events, 'FEW', 0 * events.FEW)
     monkeypatch.setattr(sys.modules['tracking_core.association.jpda_star'], 'LARGEST', 0)
     errors = [jpda_star(*scene).probability - p for scene, p in zip(scenes, right, strict=True)]
     assert 0.01 < np.mean(np.abs(np.concatenate(errors))) < 0.035
@@ -264,7 +275,7 @@ def test_jpda_star_is_the_same_in_small_batches(monkeypatch: pytest.MonkeyPatch)
     """Splitting work for memory, or not merging small batches, changes nothing."""
     scene = make_blocks(8)
     whole = jpda_star(*scene)
-    monkeypatch.setattr(events, 'FEW', 0)
+    monkeypatch.setattr(events, 'FEW', 0 * events.FEW)
     monkeypatch.setattr(permutations, 'MEMORY', 1)
     monkeypatch.setattr(permutations, 'PADDING', 0)
     assert not whole.approximate.any()

@@ -29,9 +29,12 @@ def brute_force(centre, half_size, plots):
     size=strategies.sampled_from([0.0, 0.01, 1.0, 30.0, 1e4]),
     grid=strategies.booleans(),
     way=strategies.sampled_from([(10_000, 10_000), (0, 10_000), (0, 0)]),  # all, a sweep, cells
+    at_once=strategies.sampled_from([1, 30, 10_000]),
 )
-@example(61, 3, 45, 2, 1e4, False, (0, 0))  # the rightmost plot
-def test_box_pairs_equals_brute_force(seed, tracks, plots, dimensions, size, grid, way) -> None:
+@example(61, 3, 45, 2, 1e4, False, (0, 0), 10_000)  # the rightmost plot
+def test_box_pairs_equals_brute_force(
+    seed, tracks, plots, dimensions, size, grid, way, at_once
+) -> None:
     """Any sizes, boxes from points to everything, also with plots on common lines."""
     rng = np.random.default_rng(seed)
     centre = rng.normal(0.0, 10.0, (tracks, dimensions))
@@ -39,7 +42,7 @@ def test_box_pairs_equals_brute_force(seed, tracks, plots, dimensions, size, gri
     if grid:
         centre, where = np.round(centre), np.round(where)
     half_size = size * rng.exponential(1.0, (tracks, dimensions))
-    with patch.multiple(gating, _FEW=way[0], _MANY=way[1]):
+    with patch.multiple(gating, _FEW=way[0], _MANY=way[1], _AT_ONCE=at_once):
         found = box_pairs(centre, half_size, where)
     for ours, expected in zip(found, brute_force(centre, half_size, where), strict=True):
         assert_array_equal(ours, expected)

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 import pytest
 from scipy.stats import multivariate_normal
 
-from tracking_core.batches import Seeds
+from tracking_core.batches import Coverage, Seeds
 from tracking_core.birth import with_speed_prior
 from tracking_core.composition import Density
 from tracking_core.initiation import one_point, plane_start, two_point
@@ -17,6 +17,7 @@ from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.new_contacts import Odds, share_of_new
 
 INTERVAL = 4.0
+STARING = Coverage(INTERVAL, INTERVAL)
 LIMITS = InitiationConfig(speed_max=300.0, climb_max=20.0)
 
 
@@ -36,7 +37,7 @@ def plots(time, position, free=1.0, variance=400.0) -> Seeds:
 
 def start(seeds: Seeds, fresh: Seeds, density=Density(1e-9, 1e-9), least: float = 0.0):  # noqa: B008
     """Two-point starts with P_D 0.9."""
-    return two_point(seeds, fresh, density, INTERVAL, 0.9, least, LIMITS)
+    return two_point(seeds, fresh, density, STARING, INTERVAL, 0.9, least, LIMITS)
 
 
 def test_two_point_gives_the_covariance_of_two_plots() -> None:

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 import pytest
 
 from tracking_core.batches import Coverage
-from tracking_core.looks import inside_coverage, LARGEST_MARGIN, margins, next_looks
+from tracking_core.looks import inside_coverage, LARGEST_MARGIN, longest_since, margins, next_looks
 
 PERIOD = 4.0
 
@@ -88,3 +88,13 @@ def test_inside_coverage_knows_range_and_sector() -> None:
     assert_array_equal(inside_coverage(position, coverage), [True, True, False, False, False])
     high = np.array([[-200.0, 10.0, 450.0], [-200.0, 10.0, 100.0]])
     assert_array_equal(inside_coverage(high, coverage), [False, True])
+
+
+@pytest.mark.parametrize('sense', [1.0, -1.0])
+def test_longest_since_is_in_whole_turns(sense: float) -> None:
+    """A plot may be nearly two turns old; none at its place comes so much later."""
+    earlier = np.array([96.1, 98.0, 99.9, 92.1, 104.0])
+    longest = longest_since(earlier, 103.9, turn(100.0, sense))
+    margin = LARGEST_MARGIN * PERIOD
+    assert_allclose(longest, [7.8, PERIOD + margin, 4.0, 2.0 * PERIOD + 3.8, 0.0])
+    assert_allclose(longest_since(earlier, 103.9, Coverage(100.0, 103.9))[:2], [7.8, 5.9])

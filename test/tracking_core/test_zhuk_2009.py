@@ -12,7 +12,7 @@ from studies.figures import Claim, Figures
 from studies.passes import measure, run, Step, two_point_start
 from studies.z0 import CONTACTS, figures, paper_planes, PERIOD, play, SD, SEED
 from studies.zhuk_2009 import CLAIMS
-from tracking_core.batches import Seeds
+from tracking_core.batches import Coverage, Seeds
 from tracking_core.composition import Density
 from tracking_core.initiation import plane_start, two_point
 from tracking_core.lifecycle_config import InitiationConfig
@@ -85,7 +85,10 @@ def test_two_point_start_is_the_one_of_the_tracker(measured) -> None:
         )
         for k in (0, 1)
     )
-    starts = two_point(old, new, Density(1e-12, 1e-12), PERIOD, 0.9, 0.0, InitiationConfig())
+    starts = two_point(
+        old, new, Density(1e-12, 1e-12), Coverage(PERIOD, PERIOD), PERIOD, 0.9, 0.0,
+        InitiationConfig(),
+    )  # fmt: skip
     for plane, mixture in zip(
         paper_planes(), two_point_start(paper_planes(), measured, PERIOD), strict=True
     ):

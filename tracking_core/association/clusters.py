@@ -10,6 +10,7 @@ A plot in one gate only cannot be taken away from its track, so clusters hang to
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -98,13 +99,20 @@ class Contest:
         )  # fmt: skip
         return order, swapped
 
+    @cached_property
     def track_cluster(self) -> Ints:
-        """Return the cluster of each track."""
+        """Cluster of each track."""
         return _spread(self.cluster, self.track, self.tracks)
 
+    @cached_property
     def plot_cluster(self) -> Ints:
-        """Return the cluster of each plot."""
+        """Cluster of each plot."""
         return _spread(self.cluster, self.plot, self.plots)
+
+    @cached_property
+    def sizes(self) -> tuple[Ints, Ints]:
+        """Number of tracks and number of plots of each cluster."""
+        return np.bincount(self.track_cluster), np.bincount(self.plot_cluster)
 
 
 def _spread(values: Ints, places: Ints, size: int) -> Ints:

@@ -9,7 +9,7 @@ settled is what `jpda` and `jpda_star` differ in.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from tracking_core.batches import Association, Bools, Floats, Ints
 
 # Returns the probability of each pair (P,), and which are approximate.
 Settle = Callable[[Contest], tuple[Floats, Bools]]
+Solve = Callable[[Contest], Floats]  # without the latter
 
 
 def share_jointly(
@@ -60,6 +61,18 @@ def share_jointly(
         label = clusters(rival, prize, len(rows), len(columns))[1]
         approximate[rows[rival]] = np.bincount(label, rough)[label] > 0
     return Association(probability, miss * left, approximate)
+
+
+def solve_each(contest: Contest, kinds: Iterable[tuple[Solve, Bools]]) -> Floats:
+    """Return the probability of each pair (P,), each cluster solved as that one kind it is of."""
+    probability = np.empty(len(contest.track))
+    for solve, chosen in kinds:
+        pairs = chosen[contest.cluster]
+        if pairs.all():
+            return solve(contest)
+        if pairs.any():
+            probability[pairs] = solve(contest.take(pairs))
+    return probability
 
 
 def _contend(

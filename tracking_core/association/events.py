@@ -1,7 +1,7 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What if there are few joint events? They are written down one by one.
+What if a cluster has few joint events? They are written down one by one.
 
 More events are summed in steps, with fewer additions: ``tables.py`` and ``permutations.py``.
 """
@@ -15,47 +15,51 @@ from math import comb, factorial
 
 import numpy as np
 
-from tracking_core.association.layout import Layout
+from tracking_core.association.clusters import Contest
+from tracking_core.association.layout import batches, lay_out, split
 from tracking_core.association.sums import NEVER
-from tracking_core.batches import Floats, Ints
+from tracking_core.batches import Bools, Floats, Ints
 
 # Products that take less time than the steps do. BLAS takes no second thread for so few, whose
 # sums could differ in the last digit: the same input gives the same bytes.
-FEW = 2**18
+MOST_PRODUCTS = 2**18
+PADDING = 2**16  # products that take less time than a batch of their own
+FEW = np.array([0, 0, 8, 8, 6, 5, 0])  # most columns of a cluster with so many rows
 
 
-def are_few(layout: Layout) -> bool:
-    """Return whether the events of all clusters, made alike in size, are few."""
-    rows, columns = int(layout.rows.max()), int(layout.columns.max())
-    room = FEW // (rows * columns * len(layout.rows))
-    return rows < 6 and _count(rows, columns) <= room
+def have_few(tracks: Ints, plots: Ints) -> Bools:
+    """Return which clusters, of so many tracks and plots each, have few events."""
+    rows, columns = np.minimum(tracks, plots), np.maximum(tracks, plots)
+    return np.asarray(columns <= FEW[np.minimum(rows, len(FEW) - 1)])
 
 
-def sum_up_events(layout: Layout, gain: Floats, best_only: bool = False) -> Floats:
+def sum_up_events(contest: Contest, best_only: bool = False) -> Floats:
     """
-    Return the probability of each pair (P,).
+    Return the probability of each pair (P,) in clusters that have few events.
 
-    Parameters
-    ----------
-    layout : Layout
-        With few events.
-    gain : (P,) array
-        Log weight of the pair less that of both its ends in none.
-    best_only : bool
-        Of the events with the same rows and the same columns only the best may be.
-
+    If `best_only`, of the events with the same tracks and the same plots only the best may be.
     """
-    rows, columns, size = int(layout.rows.max()), int(layout.columns.max()), len(layout.rows)
-    where, events = (layout.row, layout.column, layout.cluster), _events(rows, columns)
-    table = np.full((rows, columns, size), NEVER)
-    table[where] = np.maximum(gain, NEVER)
+    layout, probability = lay_out(contest), np.empty(len(contest.track))
+    for batch in batches(layout, np.ones(len(layout.rows), np.bool_), products, PADDING):
+        largest = products(int(layout.rows[batch].max()), int(layout.columns[batch].max()))
+        for part in split(batch, MOST_PRODUCTS // largest):
+            table, pairs, where = layout.tables(part, NEVER)
+            table[where] = np.maximum(contest.gain[pairs], NEVER)
+            probability[pairs] = _share(table, best_only)[where]
+    return probability
+
+
+def _share(table: Floats, best_only: bool) -> Floats:
+    """Return the share (R, K, C) of each pair in all events of its cluster."""
+    rows, columns, size = table.shape
+    events = _events(rows, columns)
     log_weight = events.pairs.T @ table.reshape(-1, size)  # (N, C)
     weight = np.exp(log_weight - log_weight.max(axis=0))
     if best_only:
         best = np.maximum.reduceat(weight, events.first, axis=0)
         weight[weight < best.repeat(events.alike, axis=0)] = 0.0
     share = events.pairs @ weight / weight.sum(axis=0)
-    return np.asarray(share.reshape(table.shape)[where])
+    return np.asarray(share.reshape(table.shape))
 
 
 @dataclass(frozen=True)
@@ -67,7 +71,7 @@ class _Events:
     alike: Ints  # (sets,) number of these
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=64)
 def _events(rows: int, columns: int) -> _Events:
     events: list[list[int]] = []
     first = []
@@ -85,7 +89,10 @@ def _events(rows: int, columns: int) -> _Events:
     return _Events(table, np.array(first), np.diff(first, append=len(events)))
 
 
-def _count(rows: int, columns: int) -> int:
-    return sum(
+@lru_cache(maxsize=1024)
+def products(rows: int, columns: int) -> int:
+    """Return events times pairs that each might have."""
+    events = sum(
         comb(rows, pairs) * comb(columns, pairs) * factorial(pairs) for pairs in range(rows + 1)
     )
+    return events * rows * columns

@@ -55,7 +55,7 @@ def marginalise_and_sum(contest: Contest) -> tuple[Floats, Floats]:
         for batch in _batches(layout, ~safe):
             _solve(layout, batch, weights, LOGARITHMIC, probability, log_sum)
         probability = _bound(_bound(probability, contest.track), contest.plot)
-    return probability, log_sum + np.bincount(contest.track_cluster(), top, len(log_sum))
+    return probability, log_sum + np.bincount(contest.track_cluster, top, len(log_sum))
 
 
 def _bound(probability: Floats, group: Ints) -> Floats:

@@ -16,10 +16,9 @@ import numpy as np
 
 from tracking_core.association.belief import propagate
 from tracking_core.association.clusters import Contest
-from tracking_core.association.contention import share_jointly
-from tracking_core.association.events import are_few, sum_up_events
+from tracking_core.association.contention import share_jointly, solve_each
+from tracking_core.association.events import have_few, sum_up_events
 from tracking_core.association.exact import marginalise
-from tracking_core.association.layout import lay_out
 from tracking_core.association.sums import choose, log_others
 from tracking_core.batches import Association, Bools, Floats, Ints
 
@@ -62,24 +61,23 @@ def jpda(
 
 def sum_up(contest: Contest, largest: int = LARGEST) -> tuple[Floats, Bools]:
     """Return the probability of each pair (P,), and which are approximate."""
-    layout = lay_out(contest)
-    if layout.rows.max() <= largest and are_few(layout):
-        return sum_up_events(layout, contest.gain), np.zeros(len(contest.gain), np.bool_)
-    tracks, plots = np.bincount(contest.track_cluster()), np.bincount(contest.plot_cluster())
-    few, many = np.minimum(tracks, plots), np.maximum(tracks, plots)
-    two, other = tracks == 2, (plots == 2) & (tracks != 2)
-    large = (few > largest) | (many > TABLE >> np.minimum(few, 62))
-    large &= few > 2
-    tables = (few > 2) & ~large
-    probability, rough = np.empty(len(contest.track)), large[contest.cluster]
-    kinds = ((_duel, two), (_duel_of_plots, other), (marginalise, tables), (propagate, large))
-    for solve, chosen in kinds:
-        pairs = chosen[contest.cluster]
-        if pairs.all():
-            return solve(contest), rough
-        if pairs.any():
-            probability[pairs] = solve(contest.take(pairs))
-    return probability, rough
+    tracks, plots = contest.sizes
+    rows, columns = np.minimum(tracks, plots), np.maximum(tracks, plots)
+    few = have_few(tracks, plots) & (rows <= largest)
+    if few.all():
+        return sum_up_events(contest), np.zeros(len(contest.track), np.bool_)
+    two, other = (tracks == 2) & ~few, (plots == 2) & (tracks != 2) & ~few
+    large = (rows > largest) | (columns > TABLE >> np.minimum(rows, 62))
+    large &= rows > 2
+    tables = ~(few | two | other | large)
+    kinds = (
+        (sum_up_events, few),
+        (_duel, two),
+        (_duel_of_plots, other),
+        (marginalise, tables),
+        (propagate, large),
+    )
+    return solve_each(contest, kinds), large[contest.cluster]
 
 
 def _duel_of_plots(contest: Contest) -> Floats:

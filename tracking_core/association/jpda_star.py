@@ -11,13 +11,14 @@ the most probable one be. Which plots are clutter and which tracks are missed st
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from tracking_core.association.clusters import Contest
-from tracking_core.association.contention import share_jointly
-from tracking_core.association.events import are_few, sum_up_events
+from tracking_core.association.contention import share_jointly, solve_each
+from tracking_core.association.events import have_few, sum_up_events
 from tracking_core.association.forest import sum_up_forest
-from tracking_core.association.layout import lay_out
 from tracking_core.association.permutations import comparisons, sum_up_best
 from tracking_core.association.sums import choose, NEVER
 from tracking_core.batches import Association, Bools, Floats, Ints
@@ -49,30 +50,23 @@ def jpda_star(
 
 def _settle(contest: Contest) -> tuple[Floats, Bools]:
     """Return the probability of each pair (P,), and which are approximate."""
-    layout = lay_out(contest)
-    if are_few(layout):
-        probability = sum_up_events(layout, contest.gain, best_only=True)
-        return probability, np.zeros(len(contest.gain), np.bool_)
-    tracks, plots = np.bincount(contest.track_cluster()), np.bincount(contest.plot_cluster())
-    two, other = tracks == 2, (plots == 2) & (tracks != 2)
-    rest = ~(two | other)
+    tracks, plots = contest.sizes
+    few = have_few(tracks, plots)
+    if few.all():
+        return sum_up_events(contest, best_only=True), np.zeros(len(contest.track), np.bool_)
+    two, other = (tracks == 2) & ~few, (plots == 2) & (tracks != 2) & ~few
+    rest = ~(few | two | other)
     large = np.zeros(len(tracks), np.bool_)
     sizes = zip(tracks[rest].tolist(), plots[rest].tolist(), strict=True)
     large[rest] = [comparisons(min(size), max(size)) > LARGEST for size in sizes]
-    probability, rough = np.empty(len(contest.track)), large[contest.cluster]
     kinds = (
+        (partial(sum_up_events, best_only=True), few),
         (_duel, two),
         (_duel_of_plots, other),
         (sum_up_best, rest & ~large),
         (sum_up_forest, large),
     )
-    for solve, chosen in kinds:
-        pairs = chosen[contest.cluster]
-        if pairs.all():
-            return solve(contest), rough
-        if pairs.any():
-            probability[pairs] = solve(contest.take(pairs))
-    return probability, rough
+    return solve_each(contest, kinds), large[contest.cluster]
 
 
 def _duel_of_plots(contest: Contest) -> Floats:

@@ -49,18 +49,18 @@ class Layout:
         """
         place = np.full(len(self.rows), -1)
         place[batch] = np.arange(len(batch))
-        pairs = np.flatnonzero(place[self.cluster] >= 0)
+        cluster = place[self.cluster]
+        pairs = (cluster >= 0).nonzero()[0]
         shape = (int(self.rows[batch].max()), int(self.columns[batch].max()), len(batch))
-        where = (self.row[pairs], self.column[pairs], place[self.cluster[pairs]])
+        where = (self.row[pairs], self.column[pairs], cluster[pairs])
         return np.full(shape, fill), pairs, where
 
 
 def lay_out(contest: Contest) -> Layout:
     """Return the places of all pairs."""
-    track_cluster, plot_cluster = contest.track_cluster(), contest.plot_cluster()
-    tracks, plots = np.bincount(track_cluster), np.bincount(plot_cluster)
-    track_rank = _rank(track_cluster, tracks)[contest.track]
-    plot_rank = _rank(plot_cluster, plots)[contest.plot]
+    tracks, plots = contest.sizes
+    track_rank = _rank(contest.track_cluster, tracks)[contest.track]
+    plot_rank = _rank(contest.plot_cluster, plots)[contest.plot]
     upright = (tracks <= plots)[contest.cluster]
     return Layout(
         rows=np.minimum(tracks, plots),
@@ -74,9 +74,9 @@ def lay_out(contest: Contest) -> Layout:
 
 def _rank(label: Ints, counts: Ints) -> Ints:
     """Return the position of each element among those with the same label."""
-    order = np.argsort(label, kind='stable')
+    order = label.argsort(kind='stable')
     rank = np.empty(len(label), np.int64)
-    rank[order] = np.arange(len(label)) - np.repeat(np.cumsum(counts) - counts, counts)
+    rank[order] = np.arange(len(label)) - (counts.cumsum() - counts).repeat(counts)
     return rank
 
 
@@ -96,7 +96,7 @@ def batches(layout: Layout, wanted: Bools, cost: Cost, padding: int) -> Iterator
         Cost that is less than that of a batch of its own: so much may be made alike by padding.
 
     """
-    batch = np.flatnonzero(wanted)
+    batch = wanted.nonzero()[0]
     rows, columns = int(layout.rows[batch].max()), int(layout.columns[batch].max())
     if cost(rows, columns) * len(batch) <= padding:
         yield batch
@@ -117,4 +117,6 @@ def batches(layout: Layout, wanted: Bools, cost: Cost, padding: int) -> Iterator
 def split(batch: Ints, size: int) -> list[Ints]:
     """Return the batch in parts of so many clusters, one at least."""
     size = max(1, size)
+    if len(batch) <= size:
+        return [batch]
     return np.split(batch, range(size, len(batch), size))

@@ -10,6 +10,7 @@ is a set solved before. The share of each pair in the sum then follows the choic
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
 from math import comb
@@ -63,51 +64,58 @@ def share_of_best(gain: Floats) -> Floats:
         The part of the sum that has the pair.
 
     """
-    values, choices = [np.zeros((1, 1, gain.shape[2]))], []
-    for size in range(1, len(gain) + 1):
-        value, choice = _best(gain, values[-1], size)
-        values.append(value)
-        choices.append(choice)
-    top = np.max([value.max(axis=(0, 1)) for value in values], axis=0)
-    weights = [np.exp(value - top) for value in values]
-    total = np.sum([weight.sum(axis=(0, 1)) for weight in weights], axis=0)
-    share, flow = np.zeros(gain.shape), weights[-1] / total
-    for size in range(len(gain), 0, -1):
-        flow = _follow(flow, choices[size - 1], size, share) + weights[size - 1] / total
-    return share
+    R, K, C = gain.shape
+    best, taken = _best(gain.reshape(R * K, C), R, K)
+    weight = np.exp(np.concatenate(best))
+    weight /= weight.sum(axis=0)
+    weights = np.split(weight, np.cumsum([len(level) for level in best[:-1]]))
+    pairs, flows, cluster = [], [weights[-1]], np.arange(C)
+    for size in range(R, 0, -1):  # back along the choices
+        step = _steps(R, K, size)
+        chosen = (taken[size - 1], np.arange(len(flows[-1]))[:, None])
+        pairs.append(step.pair[chosen] * C + cluster)
+        left = np.bincount(
+            (step.rest[chosen] * C + cluster).ravel(), flows[-1].ravel(), best[size - 1].size
+        )
+        flows.append(left.reshape(-1, C) + weights[size - 1])
+    total = np.bincount(
+        np.concatenate(pairs).ravel(), np.concatenate(flows[:-1]).ravel(), gain.size
+    )
+    return np.asarray(total.reshape(R, K, C), np.float64)
 
 
-def _best(gain: Floats, smaller: Floats, size: int) -> tuple[Floats, Ints]:
+def _best(gain: Floats, rows: int, columns: int) -> tuple[list[Floats], list[Ints]]:
     """
-    Return the weight (S, U, C) of the best permutation, and which column its last row has.
+    Return the log weight of the best permutation of each set, by size, and which step is its last.
 
-    `smaller` (S', U', C) is the same for sets with one row and one column less.
+    The weights (N, C) are less that of the best set of all.
     """
-    rows, fewer_rows = _subsets(gain.shape[0], size)
-    columns, fewer_columns = _subsets(gain.shape[1], size)
-    last, rest = rows[:, -1, None], fewer_rows[:, -1, None]
-    value = smaller[rest, fewer_columns[:, 0]] + gain[last, columns[:, 0]]
-    choice = np.zeros(value.shape, np.int64)
-    for taken in range(1, size):  # members of the set of columns
-        other = smaller[rest, fewer_columns[:, taken]] + gain[last, columns[:, taken]]
-        choice[other > value] = taken
-        np.maximum(value, other, out=value)
-    return value, choice
+    best, taken = [np.zeros((1, gain.shape[1]))], []
+    for size in range(1, rows + 1):
+        step = _steps(rows, columns, size)
+        value = best[-1].take(step.rest, axis=0)
+        value += gain.take(step.pair, axis=0)
+        taken.append(value.argmax(axis=0))
+        best.append(value.max(axis=0))
+    top = np.max([level.max(axis=0) for level in best], axis=0)
+    return [level - top for level in best], taken
 
 
-def _follow(flow: Floats, choice: Ints, size: int, share: Floats) -> Floats:
-    """Add what flows (S, U, C) through each choice to its pair; return it for the sets left."""
-    R, K, C = share.shape
-    rows, fewer_rows = _subsets(R, size)
-    columns, fewer_columns = _subsets(K, size)
-    last, rest = rows[:, -1, None, None], fewer_rows[:, -1, None, None]
-    U, cluster = np.arange(len(columns))[:, None], np.arange(C)
-    pair = (last * K + columns[U, choice]) * C + cluster
-    share += np.bincount(pair.ravel(), flow.ravel(), share.size).reshape(share.shape)
-    shape = (comb(R, size - 1), comb(K, size - 1), C)
-    left = (rest * shape[1] + fewer_columns[U, choice]) * C + cluster
-    onward = np.bincount(left.ravel(), flow.ravel(), shape[0] * shape[1] * C)
-    return np.asarray(onward.reshape(shape), np.float64)
+@dataclass(frozen=True)
+class _Steps:
+    """The ways to make N sets of so many rows and as many columns: the last row takes a column."""
+
+    rest: Ints  # (size, N) position of the set that is left
+    pair: Ints  # (size, N) row times K plus the column taken
+
+
+@lru_cache(maxsize=128)
+def _steps(rows: int, columns: int, size: int) -> _Steps:
+    of_rows, fewer_rows = _subsets(rows, size)
+    of_columns, fewer_columns = _subsets(columns, size)
+    rest = fewer_rows[:, -1, None] * comb(columns, size - 1) + fewer_columns.T[:, None]
+    pair = of_rows[:, -1, None] * columns + of_columns.T[:, None]
+    return _Steps(rest.reshape(size, -1), pair.reshape(size, -1))
 
 
 @lru_cache(maxsize=128)
