@@ -103,8 +103,9 @@ def two_point(
     if len(old) == 0:
         return Starts.none(step.shape[1])
     looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
-    likely = odds.of_pair(take(seeds, old), take(fresh, new), step, dt)
-    likely = likely * (1.0 - detection_probability) ** looks_between
+    noise = take_rows(seeds.covariance, old) + take_rows(fresh.covariance, new)
+    likely = odds.of_plots(fresh)[new] * odds.of_steps(noise, step, dt)
+    likely *= (1.0 - detection_probability) ** looks_between
     evidence = np.bincount(old, likely, len(seeds)) - detection_probability
     prior = share_of_new(density.existence, np.asarray(evidence), seeds.free) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]

@@ -43,21 +43,25 @@ class Odds:
     config: InitiationConfig
 
     def at_best(self, seeds: Seeds, dt: float) -> Floats:
-        """Return `of_pair` (S,) if the second plot lies where the first does, dt [s] later."""
+        """Return the odds (S,) of a second plot just where the first is, dt [s] later."""
         spread = self._spread(2.0 * seeds.covariance, np.full(len(seeds), dt))
-        return self._odds(seeds, determinant(spread))
+        return self.of_plots(seeds) * _peak(determinant(spread), spread.shape[1])
 
-    def of_pair(self, first: Seeds, second: Seeds, step: Floats, dt: Floats) -> Floats:
+    def of_plots(self, plots: Seeds) -> Floats:
+        """Return P_D over the density of other plots (M,), of plots that may be a contact's."""
+        others = np.maximum(self.density.total * plots.clutter_volume, 1e-300)
+        return np.asarray(self.detection_probability * plots.free / others)
+
+    def of_steps(self, noise: Floats, step: Floats, dt: Floats) -> Floats:
         """
-        Return P_D p(second | first) over the density of other plots (K,).
+        Return p(second | first) (K,), the density of a contact's second plot.
 
         The contact's velocity is taken as Gaussian with the variance that the speed limit gives;
-        `step` (K, d) [m] apart after `dt` (K,) [s].
+        `step` (K, d) [m] apart after `dt` (K,) [s], with `noise` (K, d, d) of both plots.
         """
-        spread = self._spread(first.covariance + second.covariance, dt)
-        inverted, size = inverse(spread)
+        inverted, size = inverse(self._spread(noise, dt))
         distance = np.einsum('kd,kde,ke->k', step, inverted, step)
-        return np.asarray(self._odds(second, size) * np.exp(-0.5 * distance))
+        return np.asarray(_peak(size, step.shape[1]) * np.exp(-0.5 * distance))
 
     def _spread(self, noise: Floats, dt: Floats) -> Floats:
         """Return the covariance (K, d, d) of a step with this noise (K, d, d) after dt (K,)."""
@@ -67,12 +71,10 @@ class Odds:
             spread[:, axis, axis] += variance * dt * dt
         return spread
 
-    def _odds(self, second: Seeds, size: Floats) -> Floats:
-        """Return the odds of a second plot just where it was expected, `size` = |covariance|."""
-        d = second.position.shape[1]
-        others = np.maximum(self.density.total * second.clutter_volume, 1e-300)
-        peak = 1.0 / np.sqrt((2.0 * np.pi) ** d * size)
-        return np.asarray(self.detection_probability * second.free * peak / others)
+
+def _peak(size: Floats, d: int) -> Floats:
+    """Return the greatest density (K,) of Gaussians in d coordinates, `size` = |covariance|."""
+    return np.asarray(1.0 / np.sqrt((2.0 * np.pi) ** d * size))
 
 
 def velocity_variance(d: int, config: InitiationConfig) -> Floats:

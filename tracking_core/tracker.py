@@ -25,6 +25,7 @@ from tracking_core.batches import (
 from tracking_core.birth import new_tracks, start_tracks
 from tracking_core.clutter import estimate_density
 from tracking_core.composition import Density, Setup
+from tracking_core.heap import keep_freed_memory
 from tracking_core.initiation import one_point, Starts
 from tracking_core.merging import end_doubles
 from tracking_core.rows import concatenate, take
@@ -41,6 +42,7 @@ class Tracker:
     state: State = field(init=False)
 
     def __post_init__(self) -> None:
+        keep_freed_memory()
         self.reset(next_id=1)
 
     def reset(self, next_id: int | None = None) -> None:

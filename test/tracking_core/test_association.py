@@ -197,3 +197,14 @@ def test_clusters_follow_shared_plots_only() -> None:
     label, pair_label = clusters(track[:2], plot[:2], 2, 8)
     assert_array_equal(label, [0, 1])
     assert_array_equal(pair_label, [0, 0])
+
+
+def test_few_events_are_few() -> None:
+    """BLAS would use more threads for more, and their sums differ from run to run."""
+    assert not events.have_few(np.array([3, 20, 6]), np.array([9, 2, 6])).any()
+    rows = np.arange(2, 6)
+    columns = events.FEW[rows]
+    assert events.have_few(rows, columns).all()
+    assert events.have_few(columns, rows).all()
+    for size in zip(rows.tolist(), columns.tolist(), strict=True):
+        assert events.products(*size) <= events.MOST_PRODUCTS

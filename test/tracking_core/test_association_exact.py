@@ -108,17 +108,6 @@ def few(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(events, 'FEW', request.param)
 
 
-def test_few_events_are_few() -> None:
-    """BLAS would use more threads for more, and their sums differ from run to run."""
-    assert not events.have_few(np.array([3, 20, 6]), np.array([9, 2, 6])).any()
-    rows = np.arange(2, 6)
-    columns = events.FEW[rows]
-    assert events.have_few(rows, columns).all()
-    assert events.have_few(columns, rows).all()
-    for size in zip(rows.tolist(), columns.tolist(), strict=True):
-        assert events.products(*size) <= events.MOST_PRODUCTS
-
-
 @pytest.mark.usefixtures('few')
 @pytest.mark.parametrize('plots', range(1, 8))
 @pytest.mark.parametrize('tracks', range(1, 6))

@@ -134,7 +134,8 @@ def test_odds_at_best_are_those_of_a_plot_in_the_same_place() -> None:
     """The bound by which seeds are sorted out equals the odds of the pair without a step."""
     seeds = plots([0.0, 0.0, 4.0], [[0.0, 5.0, 1.0], [40.0, 80.0, 8.0], [7.0, 7.0, 7.0]])
     odds = Odds(Density(1e-9, 1e-9), 0.9, LIMITS)
-    pair = odds.of_pair(seeds, seeds, np.zeros((3, 3)), np.full(3, INTERVAL))
+    step, dt = np.zeros((3, 3)), np.full(3, INTERVAL)
+    pair = odds.of_plots(seeds) * odds.of_steps(2.0 * seeds.covariance, step, dt)
     assert_allclose(odds.at_best(seeds, INTERVAL), pair, rtol=1e-12)
 
 

@@ -1,0 +1,41 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Memory that scans take again and again is not fetched from the system each time."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+import sys
+
+import pytest
+
+SCANS = """
+import resource
+import numpy as np
+from tracking_core.heap import keep_freed_memory
+{call}
+def faults():
+    return resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+for turn in range(20):
+    before = faults()
+    parts = [np.ones(12_000) for _ in range(60)]  # 6 MB in blocks that glibc does not map
+    del parts
+print(faults() - before)
+"""
+
+
+def faults(call: str) -> int:
+    """Return the page faults of the last scan in a process of its own."""
+    done = subprocess.run(
+        [sys.executable, '-c', SCANS.format(call=call)], capture_output=True, text=True,
+        timeout=60, check=True,
+    )  # fmt: skip
+    return int(done.stdout)
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != 'glibc', reason='other C libraries do as they like')
+def test_a_scan_finds_the_memory_of_the_last_one() -> None:
+    """Without the call all pages are asked for anew, with it none."""
+    assert faults('') > 1000
+    assert faults('keep_freed_memory()') < 20
