@@ -5,14 +5,15 @@ How well are real movements tracked by their bearings? The shared data and fresh
 
 Run ``python -m benchmarks.sonar_data FOLDER``, the folder with ``sea_ais`` and
 ``marine_autoferry``; recordings that are not there are left out. The presets are those of
-``config/``. The recordings are two of a kind, so as many simulated scenes of that kind follow as
-``--scenes`` says (``sonar_scenes.py``): the presets were not chosen on those.
+``config/``. The marks of a recording of vessels are one draw of luck: ``--draws`` of the same
+movements are made anew. As many simulated scenes of that kind follow as ``--scenes`` says
+(``sonar_scenes.py``): the presets were not chosen on those.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import astuple, fields
 from functools import partial
@@ -23,7 +24,7 @@ import numpy as np
 
 from benchmarks.recordings import data_folder, PROJECT
 from benchmarks.sonar_recordings import camera, Record, vessels
-from benchmarks.sonar_scenes import sea
+from benchmarks.sonar_scenes import heard, sea
 from benchmarks.sonar_score import Rows, Score, score
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.node_config import sonar_node_config
@@ -69,30 +70,49 @@ def line(name: str, values: tuple[float, ...]) -> str:
 
 def scene_score(values: Mapping[str, Any], seed: int) -> tuple[float, ...]:
     """Return the score of a simulated scene."""
-    record = sea(seed)
+    return vessel_score(sea(seed), values)
+
+
+def drawn_score(record: Record, values: Mapping[str, Any], seed: int) -> tuple[float, ...]:
+    """Return the score of the record with other marks."""
+    return vessel_score(heard(record, np.random.default_rng(seed)), values)
+
+
+def vessel_score(record: Record, values: Mapping[str, Any]) -> tuple[float, ...]:
+    """Return the score of a record of vessels, `values` over the preset."""
     return astuple(score(record, track(record, {**preset('direction_finder'), **values})))
+
+
+def mean_lines(name: str, scores: Iterable[tuple[float, ...]]) -> Iterator[str]:
+    """Yield two rows of the table: the mean of the scores, and how well it is known."""
+    found = np.array(list(scores), np.float64)
+    yield line(f'{name}, mean of {len(found)}', tuple(np.nanmean(found, axis=0)))
+    error = np.nanstd(found, axis=0) / np.sqrt(len(found))
+    yield line('... standard error', tuple(error))
 
 
 def main() -> None:
     """Print the scores."""
     parser = argparse.ArgumentParser(description='Bearing tracks of real movements, scored.')
     parser.add_argument('folder', type=Path, nargs='?', default=data_folder())
+    parser.add_argument('--draws', type=int, default=30, help='of marks for each recording')
     parser.add_argument('--scenes', type=int, default=40, help='simulated scenes')
     parser.add_argument('--jobs', type=int, default=2, help='processes')
     parser.add_argument('--set', nargs='*', default=[], help='parameters as name=value')
     given = parser.parse_args()
     values = {k: parse_value(v) for k, v in (item.split('=', 1) for item in given.set)}
     print('| ' + ' | '.join(('recording', *COLUMNS)) + ' |\n' + '|---' * (len(COLUMNS) + 1) + '|')
-    for record, name in records(given.folder):
-        rows = track(record, {**preset(name), **values})
-        print(line(record.name, astuple(score(record, rows))), flush=True)
-    if given.scenes:
-        seeds = range(FIRST_SCENE, FIRST_SCENE + given.scenes)
-        with ProcessPoolExecutor(given.jobs) as pool:
-            found = np.array(list(pool.map(partial(scene_score, values), seeds)))
-        print(line(f'{given.scenes} scenes, mean', tuple(np.nanmean(found, axis=0))))
-        error = np.nanstd(found, axis=0) / np.sqrt(given.scenes)
-        print(line('... standard error', tuple(error)))
+    with ProcessPoolExecutor(given.jobs) as pool:
+        for record, name in records(given.folder):
+            rows = track(record, {**preset(name), **values})
+            print(line(record.name, astuple(score(record, rows))), flush=True)
+            if given.draws and name == 'direction_finder':
+                drawn = pool.map(partial(drawn_score, record, values), range(given.draws))
+                print(*mean_lines('... drawn anew', drawn), sep='\n', flush=True)
+        if given.scenes:
+            seeds = range(FIRST_SCENE, FIRST_SCENE + given.scenes)
+            found = pool.map(partial(scene_score, values), seeds)
+            print(*mean_lines('scenes', found), sep='\n')
 
 
 if __name__ == '__main__':

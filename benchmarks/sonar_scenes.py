@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -76,29 +76,31 @@ def sea(seed: int) -> Record:
         journey(TRAFFIC, harbour + HARBOUR[1] * rng.standard_normal(2), rng).at(time)[0][:, :2]
         for _ in range(CONTACTS)
     ]
-    return _heard(f'scene {seed}', time, own, np.stack(paths, axis=1), rng)
-
-
-def _heard(
-    name: str, time: Floats, own: Floats, paths: Floats, rng: np.random.Generator
-) -> Record:
-    """Return what is heard of contacts on paths (K, C, 2) from own ship (K, 2)."""
-    line = paths - own[:, None]
-    bearing = np.arctan2(line[..., 1], line[..., 0])
+    line = np.stack(paths, axis=1) - own[:, None]
     distance = np.hypot(line[..., 0], line[..., 1])
-    chance = np.interp(distance, [LOUD, FAINT], [0.9, 0.6]) * (distance < SILENT)
-    heard = rng.random(distance.shape) < chance
-    noisy = wrap_angle(bearing + BEARING_SD * rng.standard_normal(bearing.shape))
-    (scan, source), mark = np.nonzero(heard), noisy[heard]
+    row, contact = np.nonzero(distance < SILENT)
+    x, y = line[row, contact].T
+    record = Record(
+        f'scene {seed}', cycles_of(time, np.zeros(0, np.int64), np.zeros(0)), own_ship(time, own),
+        row, contact, np.arctan2(y, x), distance[row, contact], 3.0 * DEGREE, 8000.0,
+    )  # fmt: skip
+    return heard(record, rng)
+
+
+def heard(record: Record, rng: np.random.Generator) -> Record:
+    """Return the record with marks drawn anew: the same movements, heard once more."""
+    time = np.array([cycle.stamp for cycle in record.cycles])
+    chance = np.interp(record.distance, [LOUD, FAINT], [0.9, 0.6]) * (record.distance < SILENT)
+    found = np.flatnonzero(rng.random(len(chance)) < chance)
+    noisy = record.bearing[found] + BEARING_SD * rng.standard_normal(len(found))
     false = np.repeat(np.arange(len(time)), rng.poisson(FALSE_MARKS, len(time)))
-    scan = np.concatenate([scan, false])
-    mark = np.concatenate([mark, rng.uniform(-np.pi, np.pi, len(false))])
-    source = np.concatenate([source, np.full(len(false), -1)])
+    scan = np.concatenate([record.scan[found], false])
+    mark = np.concatenate([wrap_angle(noisy), rng.uniform(-np.pi, np.pi, len(false))])
+    source = np.concatenate([record.contact[found], np.full(len(false), -1)])
     order = rng.permutation(len(scan))  # marks of a cycle come in no order
     order = order[np.argsort(scan[order], kind='stable')]
-    row, contact = np.nonzero(distance < SILENT)
-    return Record(
-        name, cycles_of(time, scan[order], mark[order]), own_ship(time, own), row, contact,
-        bearing[row, contact], distance[row, contact], 3.0 * DEGREE, 8000.0,
-        by_cycle(len(time), scan[order], source[order]),
-    )  # fmt: skip
+    return replace(
+        record,
+        cycles=cycles_of(time, scan[order], mark[order]),
+        source=by_cycle(len(time), scan[order], source[order]),
+    )
