@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.marked import Marked
@@ -25,6 +25,7 @@ from tracking_core.motion import RandomWalk
 from tracking_core.resolution import Resolution
 
 _SECONDS_PER_HOUR = 3600.0
+_LEAST_SPREAD = 1e-6  # of 1 over range, variance over squared mean: limits that are all but equal
 _START_SHARE = 0.5  # a new track may be this much less likely than one that is dropped
 
 
@@ -73,15 +74,22 @@ def build_estimator(config: SonarTrackerConfig) -> Estimator:
         return DecoupledKalman(walks[0])
     if config.estimator == 'finite_memory':
         return FiniteMemory(motion.memory)
-    near, far = 1.0 / motion.range_min, 1.0 / motion.range_max
+    mean, sd = _inverse_range(motion.range_min, motion.range_max)
     return ModifiedPolar(
         bearing_noise=motion.bearing_noise,
         rate_noise=motion.rate_noise,
         chain=chain,
         closing_sd=motion.closing_sd,
-        inverse_range=0.5 * (near + far),
-        inverse_range_sd=float((near - far) / np.sqrt(12.0)),
+        inverse_range=mean,
+        inverse_range_sd=sd,
     )
+
+
+def _inverse_range(nearest: float, farthest: float) -> tuple[float, float]:
+    """Return mean and sd of 1 over range [1/m] of contacts that are spread evenly over the sea."""
+    mean = 2.0 / (nearest + farthest)
+    square = 2.0 * math.log(farthest / nearest) / (farthest**2 - nearest**2)
+    return mean, math.sqrt(max(square - mean**2, _LEAST_SPREAD * mean**2))
 
 
 def _with_marks(estimator: Estimator, config: SonarTrackerConfig) -> Estimator:

@@ -28,8 +28,9 @@ class MotionConfig:
         doc='range rate over range of new contacts (modified_polar)',
     )  # fmt: skip
     range_min: float = parameter(
-        500.0, unit='m', doc='nearest new contact (modified_polar)', low=1.0
-    )
+        500.0, unit='m', low=1.0,
+        doc='nearest new contact; they are spread evenly over the sea (modified_polar)',
+    )  # fmt: skip
     range_max: float = parameter(
         50_000.0, unit='m', doc='farthest new contact (modified_polar)', low=1.0
     )
