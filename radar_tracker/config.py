@@ -171,6 +171,11 @@ class RadarTrackerConfig:
         0.0, unit='1/(m rad), 3-D 1/(m rad^2), Cartesian 1/m^2 or 1/m^3', low=0.0, live=True,
         doc='false plots of one look per unit of plot space; 0: estimated',
     )  # fmt: skip
+    longest_pause: float = parameter(
+        0.0, unit='s', low=0.0, live=True,
+        doc='a track that nobody looked at for longer ends: who is who is not known any more; '
+        '0: none does',
+    )  # fmt: skip
     max_tracks: int = parameter(
         5000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000
     )

@@ -48,6 +48,7 @@ def build_setup(config: SonarTrackerConfig, sonar: Sonar) -> Setup:
         least_existence=_START_SHARE * config.existence.drop,
         merge=config.merge,
         max_tracks=config.max_tracks,
+        longest_pause=config.longest_pause,
         resolution=_resolution(config, sonar),
     )  # fmt: skip
 

@@ -147,6 +147,11 @@ class SonarTrackerConfig:
     clutter_density: float = parameter(
         0.0, unit='1/rad', low=0.0, live=True, doc='false marks of one cycle; 0: estimated'
     )
+    longest_pause: float = parameter(
+        0.0, unit='s', low=0.0, live=True,
+        doc='a track that nobody looked at for longer ends: who is who is not known any more; '
+        '0: none does',
+    )  # fmt: skip
     max_tracks: int = parameter(
         1000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000
     )

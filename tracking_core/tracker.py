@@ -16,6 +16,7 @@ import numpy as np
 from tracking_core.batches import (
     Coverage,
     Floats,
+    Ints,
     Scan,
     Seeds,
     State,
@@ -80,12 +81,12 @@ class Tracker:
             Every track, each at the time of its last look.
 
         """
-        state = self.state
+        state, silent = self._without_silent(scan)
         if state.held is not None:
             scan = concatenate(state.held, scan)
         interval = _interval(scan, state)
         density = self._density(scan, interval)
-        seen = self._look(scan, density)
+        seen = self._look(state.tracks, scan, density)
         born, seeds, used = start_tracks(scan, seen, density, interval, self.setup, state)
 
         living, doubled = end_doubles(
@@ -114,7 +115,7 @@ class Tracker:
                 refused=len(born) - len(fitting),
                 broken=seen.broken,
                 clutter_density=density.clutter,
-                deleted=np.concatenate([seen.ended, living.id[doubled]]),
+                deleted=np.concatenate([silent, seen.ended, living.id[doubled]]),
             ),
         )
         return self.state.tracks
@@ -149,8 +150,16 @@ class Tracker:
         self.state = replace(self.state, tracks=take(self.state.tracks, kept))
         return not bool(kept.all())
 
-    def _look(self, scan: Scan, density: Density) -> Look:
-        seen = look(self.state.tracks, scan, self.setup, density)
+    def _without_silent(self, scan: Scan) -> tuple[State, Ints]:
+        """Return the state without tracks that nobody looked at for too long, and their ids."""
+        tracks, longest = self.state.tracks, self.setup.longest_pause
+        silent = scan.coverage.start_time - tracks.time > (longest or np.inf)
+        if not silent.any():
+            return self.state, tracks.id[:0]
+        return replace(self.state, tracks=take(tracks, ~silent)), tracks.id[silent]
+
+    def _look(self, tracks: Tracks, scan: Scan, density: Density) -> Look:
+        seen = look(tracks, scan, self.setup, density)
         if seen.again:
             seen = seen.and_then(look(seen.tracks, scan, self.setup, density))
         return seen
