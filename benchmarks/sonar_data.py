@@ -32,7 +32,7 @@ from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.config import parameters, with_values
 from tracking_tools.parameter_file import parse_value, read_parameter_file
 
-FIRST_SCENE = 1000  # seeds below were looked at while the presets were made
+FIRST_SCENE = 1000  # and first draw; seeds below were looked at while the presets were made
 COLUMNS = tuple(field.name for field in fields(Score))
 
 
@@ -107,7 +107,8 @@ def main() -> None:
             rows = track(record, {**preset(name), **values})
             print(line(record.name, astuple(score(record, rows))), flush=True)
             if given.draws and name == 'direction_finder':
-                drawn = pool.map(partial(drawn_score, record, values), range(given.draws))
+                seeds = range(FIRST_SCENE, FIRST_SCENE + given.draws)
+                drawn = pool.map(partial(drawn_score, record, values), seeds)
                 print(*mean_lines('... drawn anew', drawn), sep='\n', flush=True)
         if given.scenes:
             seeds = range(FIRST_SCENE, FIRST_SCENE + given.scenes)
