@@ -98,11 +98,11 @@ def _inside(
 
 
 def _compare_all(centre: Floats, half_size: Floats, plots: Floats) -> tuple[Ints, Ints]:
-    """Do what `box_pairs` does, without order."""
+    """Do what `box_pairs` does where there are few."""
     inside = np.abs(plots[:, 0] - centre[:, :1]) <= half_size[:, :1]
     for axis in range(1, plots.shape[1]):
         at = slice(axis, axis + 1)
-        inside &= ~(np.abs(plots[:, axis] - centre[:, at]) > half_size[:, at])  # NaN: as below
+        inside &= ~(np.abs(plots[:, axis] - centre[:, at]) > half_size[:, at])  # NaN: as above
     track, plot = inside.nonzero()
     return track, plot
 

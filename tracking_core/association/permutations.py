@@ -69,19 +69,23 @@ def share_of_best(gain: Floats) -> Floats:
     weight = np.exp(np.concatenate(best))
     weight /= weight.sum(axis=0)
     weights = np.split(weight, np.cumsum([len(level) for level in best[:-1]]))
-    pairs, flows, cluster = [], [weights[-1]], np.arange(C)
-    for size in range(R, 0, -1):  # back along the choices
-        step = _steps(R, K, size)
-        chosen = (taken[size - 1], np.arange(len(flows[-1]))[:, None])
+    return _follow(weights, taken, gain.shape)
+
+
+def _follow(weights: list[Floats], taken: list[Ints], shape: tuple[int, ...]) -> Floats:
+    """Return the share (R, K, C) of each pair: what sets weigh goes back along their steps."""
+    R, K, C = shape
+    pairs, flows, cluster = [], [weights[R]], np.arange(C)
+    for size in range(R, 0, -1):
+        step, flow = _steps(R, K, size), flows[-1]
+        chosen = (taken[size - 1], np.arange(len(flow))[:, None])
         pairs.append(step.pair[chosen] * C + cluster)
-        left = np.bincount(
-            (step.rest[chosen] * C + cluster).ravel(), flows[-1].ravel(), best[size - 1].size
-        )
-        flows.append(left.reshape(-1, C) + weights[size - 1])
-    total = np.bincount(
-        np.concatenate(pairs).ravel(), np.concatenate(flows[:-1]).ravel(), gain.size
-    )
-    return np.asarray(total.reshape(R, K, C), np.float64)
+        rest, smaller = step.rest[chosen] * C + cluster, weights[size - 1]
+        left = np.bincount(rest.ravel(), flow.ravel(), smaller.size)
+        flows.append(left.reshape(smaller.shape) + smaller)
+    pair, flow = np.concatenate(pairs), np.concatenate(flows[:-1])
+    share = np.bincount(pair.ravel(), flow.ravel(), R * K * C)
+    return np.asarray(share.reshape(shape), np.float64)
 
 
 def _best(gain: Floats, rows: int, columns: int) -> tuple[list[Floats], list[Ints]]:
