@@ -79,7 +79,7 @@ class _Runs:
         total = ends[-1] if len(ends) else 0
         if total > most:
             count = np.where(ends > most, 0, count)
-        cuts = ends.searchsorted(np.arange(_AT_ONCE, total, _AT_ONCE), 'right')
+        cuts = ends.searchsorted(np.arange(_AT_ONCE, min(total, most), _AT_ONCE), 'right')
         for part in map(slice, (0, *cuts), (*cuts, len(ends))):
             place = _numbers(self.first[part], count[part])
             yield self.track[part].repeat(count[part]), self.order[place]

@@ -18,6 +18,7 @@ def keep_freed_memory() -> None:
 
     glibc gives them back beyond twice the largest block that was mapped and freed so far, and the
     next scan asks for the same pages again: in dense clutter a fifth of its time. One large block
-    that is never touched raises that limit. Other C libraries do not mind.
+    that is never touched raises that limit, if the environment (``MALLOC_TRIM_THRESHOLD_``) does
+    not set it. Other C libraries do not mind.
     """
     np.empty(_BLOCK, np.uint8)

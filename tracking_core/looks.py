@@ -80,7 +80,9 @@ def longest_since(time: Floats, latest: float, coverage: Coverage) -> Floats:
     """
     Return how much later than these (S,) plots at the same place can be, in this scan (S,) [s].
 
-    A rotating antenna comes back after whole turns. The margin is for contacts that move.
+    A rotating antenna comes back after whole turns. The margin is for contacts that move: of those
+    that pass the antenna so near that their azimuth changes by more in a turn, a part of the
+    pairs is not seen until they are farther away.
 
     Parameters
     ----------

@@ -84,7 +84,7 @@ def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]
     begun = looks.time - margin <= scan.coverage.end_time
     if begun.any():
         opened, late = (looks.time - margin)[begun].min(), looks.time[begun]
-        plots = (scan.time >= opened).nonzero()[0]  # few: others cannot be in these gates
+        plots = (scan.time >= opened).nonzero()[0]  # few; the others are too early
         place = position[begun] + velocity[begun] * (late - time[begun])[:, None]
         box = np.repeat(size[begun, None], 2, axis=1)
         track, plot = box_pairs(place, box, take_rows(scan.position[:, :2], plots))

@@ -151,12 +151,14 @@ class Tracker:
         return not bool(kept.all())
 
     def _without_silent(self, scan: Scan) -> tuple[State, Ints]:
-        """Return the state without tracks that nobody looked at for too long, and their ids."""
-        tracks, longest = self.state.tracks, self.setup.longest_pause
-        silent = scan.coverage.start_time - tracks.time > (longest or np.inf)
-        if not silent.any():
+        """Return the state without what nobody looked at for too long, and the ids of tracks."""
+        tracks, seeds = self.state.tracks, self.state.seeds
+        earliest = scan.coverage.start_time - (self.setup.longest_pause or np.inf)
+        silent, old = tracks.time < earliest, seeds.time < earliest
+        if not (silent.any() or old.any()):
             return self.state, tracks.id[:0]
-        return replace(self.state, tracks=take(tracks, ~silent)), tracks.id[silent]
+        left = replace(self.state, tracks=take(tracks, ~silent), seeds=take(seeds, ~old))
+        return left, tracks.id[silent]
 
     def _look(self, tracks: Tracks, scan: Scan, density: Density) -> Look:
         seen = look(tracks, scan, self.setup, density)

@@ -46,3 +46,14 @@ def test_tracks_end_in_a_pause_that_is_too_long(longest: float, go_on: bool) -> 
     assert after.confirmed.sum() == len(BEARINGS)
     assert np.isin(after.id[after.confirmed], before.id).all() == go_on
     assert np.isin(after.id, before.id).any() == go_on
+
+
+def test_marks_before_a_pause_start_no_track_after_it() -> None:
+    """Two marks at one bearing make a contact only if no pause was between them."""
+    for longest, starts in ((0.0, True), (100.0, False)):
+        tracker = SonarTracker(
+            with_values(SonarTrackerConfig(), {'longest_pause': longest, 'clutter_density': 0.1})
+        )
+        for cycle in heard(np.array([0.0, PAUSE]), np.random.default_rng(1)):
+            tracks = tracker.track(cycle)
+        assert (len(tracks) > 0) == starts

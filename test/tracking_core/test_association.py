@@ -101,12 +101,12 @@ def test_associate_permutes_with_tracks_and_plots(associate: Associator, density
 
 
 @every_method
-@pytest.mark.parametrize('few', [events.FEW, 0 * events.FEW], ids=['written down', 'in steps'])
+@pytest.mark.parametrize('few', [1, 0], ids=['written down', 'in steps'])
 def test_associate_batch_equals_its_clusters_one_by_one(
-    associate: Associator, few: Ints, monkeypatch: pytest.MonkeyPatch
+    associate: Associator, few: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Scenes far apart do not influence each other, small and large ones, however summed."""
-    monkeypatch.setattr(events, 'FEW', few)
+    monkeypatch.setattr(events, 'MOST_COLUMNS', few * events.MOST_COLUMNS)
     scenes = [make_scene(seed, 1 + seed % 6, 1 + seed % 5) for seed in range(20)]
     scenes.append(make_scene(20, 12, 12))
     first_track = np.cumsum([0] + [len(scene[3]) for scene in scenes])
@@ -203,7 +203,7 @@ def test_few_events_are_few() -> None:
     """BLAS would use more threads for more, and their sums differ from run to run."""
     assert not events.have_few(np.array([3, 20, 6]), np.array([9, 2, 6])).any()
     rows = np.arange(2, 6)
-    columns = events.FEW[rows]
+    columns = events.MOST_COLUMNS[rows]
     assert events.have_few(rows, columns).all()
     assert events.have_few(columns, rows).all()
     for size in zip(rows.tolist(), columns.tolist(), strict=True):

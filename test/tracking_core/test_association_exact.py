@@ -102,10 +102,10 @@ def assert_exact(
     assert_allclose(result.miss, miss, rtol=0.0, atol=1e-9)
 
 
-@pytest.fixture(params=[events.FEW, 0 * events.FEW], ids=['written down', 'in steps'])
+@pytest.fixture(params=[1, 0], ids=['written down', 'in steps'])
 def few(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let small clusters be summed event by event, then in steps as larger ones are."""
-    monkeypatch.setattr(events, 'FEW', request.param)
+    monkeypatch.setattr(events, 'MOST_COLUMNS', request.param * events.MOST_COLUMNS)
 
 
 @pytest.mark.usefixtures('few')
@@ -135,7 +135,7 @@ def test_jpda_is_the_same_in_small_batches(monkeypatch: pytest.MonkeyPatch) -> N
     """Splitting work for memory, or not merging small batches, changes nothing."""
     scene = make_blocks(8)
     whole = jpda(*scene)
-    monkeypatch.setattr(events, 'FEW', 0 * events.FEW)
+    monkeypatch.setattr(events, 'MOST_COLUMNS', 0 * events.MOST_COLUMNS)
     monkeypatch.setattr(exact, 'MEMORY', 1)
     monkeypatch.setattr(exact, 'PADDING', 0)
     split = jpda(*scene)
@@ -254,7 +254,7 @@ def test_jpda_star_without_loops_is_near(monkeypatch: pytest.MonkeyPatch) -> Non
     """What is left out in large clusters would on average change a probability by 0.03."""
     scenes = [make_scene(seed, 5, 6, 0.8, 4.0) for seed in range(100)]
     right = [jpda_star(*scene).probability for scene in scenes]
-    monkeypatch.setattr(events, 'FEW', 0 * events.FEW)
+    monkeypatch.setattr(events, 'MOST_COLUMNS', 0 * events.MOST_COLUMNS)
     monkeypatch.setattr(sys.modules['tracking_core.association.jpda_star'], 'LARGEST', 0)
     errors = [jpda_star(*scene).probability - p for scene, p in zip(scenes, right, strict=True)]
     assert 0.01 < np.mean(np.abs(np.concatenate(errors))) < 0.035
@@ -264,7 +264,7 @@ def test_jpda_star_is_the_same_in_small_batches(monkeypatch: pytest.MonkeyPatch)
     """Splitting work for memory, or not merging small batches, changes nothing."""
     scene = make_blocks(8)
     whole = jpda_star(*scene)
-    monkeypatch.setattr(events, 'FEW', 0 * events.FEW)
+    monkeypatch.setattr(events, 'MOST_COLUMNS', 0 * events.MOST_COLUMNS)
     monkeypatch.setattr(permutations, 'MEMORY', 1)
     monkeypatch.setattr(permutations, 'PADDING', 0)
     assert not whole.approximate.any()

@@ -9,6 +9,7 @@ from unittest.mock import patch
 from hypothesis import example, given, settings, strategies
 import numpy as np
 from numpy.testing import assert_array_equal
+import pytest
 
 from tracking_core import gating
 from tracking_core.gating import box_pairs, sector_pairs
@@ -46,6 +47,21 @@ def test_box_pairs_equals_brute_force(
         found = box_pairs(centre, half_size, where)
     for ours, expected in zip(found, brute_force(centre, half_size, where), strict=True):
         assert_array_equal(ours, expected)
+
+
+@pytest.mark.parametrize('way', [(0, 10**9), (0, 0)], ids=['a sweep', 'cells'])
+def test_box_pairs_looks_at_no_more_than_allowed(way: tuple[int, int]) -> None:
+    """The first boxes are filled, those beyond the bound stay empty and cost nothing."""
+    rng = np.random.default_rng(4)
+    centre, plots = rng.normal(0.0, 1.0, (300, 2)), rng.normal(0.0, 1.0, (400, 2))
+    with (
+        patch.multiple(gating, _FEW=way[0], _MANY=way[1], _AT_ONCE=100),
+        patch.object(gating, '_inside', wraps=gating._inside) as inside,
+    ):
+        track, plot = box_pairs(centre, np.full((300, 2), 20.0), plots, most=2_000)
+    assert_array_equal(track, np.repeat(np.arange(5), 400))
+    assert_array_equal(plot, np.tile(np.arange(400), 5))
+    assert inside.call_count <= 21
 
 
 def test_box_pairs_ignores_a_coordinate_that_is_not_measured() -> None:

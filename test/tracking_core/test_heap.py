@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
+import os
 import platform
 import subprocess
 import sys
 
 import pytest
 
+TUNED = ('GLIBC_TUNABLES', 'MALLOC_TRIM_THRESHOLD_', 'MALLOC_TOP_PAD_', 'MALLOC_MMAP_THRESHOLD_')
 SCANS = """
 import resource
 import numpy as np
@@ -29,7 +31,7 @@ def faults(call: str) -> int:
     """Return the page faults of the last scan in a process of its own."""
     done = subprocess.run(
         [sys.executable, '-c', SCANS.format(call=call)], capture_output=True, text=True,
-        timeout=60, check=True,
+        timeout=60, check=True, env={k: v for k, v in os.environ.items() if k not in TUNED},
     )  # fmt: skip
     return int(done.stdout)
 
@@ -37,5 +39,7 @@ def faults(call: str) -> int:
 @pytest.mark.skipif(platform.libc_ver()[0] != 'glibc', reason='other C libraries do as they like')
 def test_a_scan_finds_the_memory_of_the_last_one() -> None:
     """Without the call all pages are asked for anew, with it none."""
-    assert faults('') > 1000
-    assert faults('keep_freed_memory()') < 20
+    without = faults('')
+    if without < 100:
+        pytest.skip('pages of this system are so large that there is nothing to save')
+    assert faults('keep_freed_memory()') < 0.1 * without

@@ -92,7 +92,7 @@ def test_inside_coverage_knows_range_and_sector() -> None:
 
 @pytest.mark.parametrize('sense', [1.0, -1.0])
 def test_longest_since_is_in_whole_turns(sense: float) -> None:
-    """A plot may be nearly two turns old; none at its place comes so much later."""
+    """Of plots that are nearly two turns old, others at their place come after one turn."""
     earlier = np.array([96.1, 98.0, 99.9, 92.1, 104.0])
     longest = longest_since(earlier, 103.9, turn(100.0, sense))
     margin = LARGEST_MARGIN * PERIOD

@@ -24,13 +24,13 @@ from tracking_core.batches import Bools, Floats, Ints
 # sums could differ in the last digit: the same input gives the same bytes.
 MOST_PRODUCTS = 2**18
 PADDING = 2**16  # products that take less time than a batch of their own
-FEW = np.array([0, 0, 8, 8, 6, 5, 0])  # most columns of a cluster with so many rows
+MOST_COLUMNS = np.array([0, 0, 8, 8, 6, 5, 0])  # most columns of a cluster with so many rows
 
 
 def have_few(tracks: Ints, plots: Ints) -> Bools:
     """Return which clusters, of so many tracks and plots each, have few events."""
     rows, columns = np.minimum(tracks, plots), np.maximum(tracks, plots)
-    return np.asarray(columns <= FEW[np.minimum(rows, len(FEW) - 1)])
+    return np.asarray(columns <= MOST_COLUMNS[np.minimum(rows, len(MOST_COLUMNS) - 1)])
 
 
 def sum_up_events(contest: Contest, best_only: bool = False) -> Floats:
