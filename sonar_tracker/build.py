@@ -75,7 +75,7 @@ def build_estimator(config: SonarTrackerConfig) -> Estimator:
         return DecoupledKalman(walks[0])
     if config.estimator == 'finite_memory':
         return FiniteMemory(motion.memory)
-    mean, sd = _inverse_range(motion.range_min, motion.range_max)
+    mean, sd = _PRIORS[motion.range_prior](motion.range_min, motion.range_max)
     return ModifiedPolar(
         bearing_noise=motion.bearing_noise,
         rate_noise=motion.rate_noise,
@@ -86,11 +86,20 @@ def build_estimator(config: SonarTrackerConfig) -> Estimator:
     )
 
 
-def _inverse_range(nearest: float, farthest: float) -> tuple[float, float]:
-    """Return mean and sd of 1 over range [1/m] of contacts that are spread evenly over the sea."""
+def _even_over_inverse_range(nearest: float, farthest: float) -> tuple[float, float]:
+    """Return mean and sd of 1 over range [1/m] if all values between the limits are as likely."""
+    near, far = 1.0 / nearest, 1.0 / farthest
+    return 0.5 * (near + far), (near - far) / math.sqrt(12.0)
+
+
+def _even_over_the_sea(nearest: float, farthest: float) -> tuple[float, float]:
+    """Return mean and sd of 1 over range [1/m] if all places between the limits are as likely."""
     mean = 2.0 / (nearest + farthest)
     square = 2.0 * math.log(farthest / nearest) / (farthest**2 - nearest**2)
     return mean, math.sqrt(max(square - mean**2, _LEAST_SPREAD * mean**2))
+
+
+_PRIORS = {'inverse': _even_over_inverse_range, 'sea': _even_over_the_sea}
 
 
 def _with_marks(estimator: Estimator, config: SonarTrackerConfig) -> Estimator:

@@ -28,12 +28,16 @@ class MotionConfig:
         doc='range rate over range of new contacts (modified_polar)',
     )  # fmt: skip
     range_min: float = parameter(
-        500.0, unit='m', low=1.0,
-        doc='nearest new contact; they are spread evenly over the sea (modified_polar)',
-    )  # fmt: skip
+        500.0, unit='m', doc='nearest new contact (modified_polar)', low=1.0
+    )
     range_max: float = parameter(
         50_000.0, unit='m', doc='farthest new contact (modified_polar)', low=1.0
     )
+    range_prior: str = parameter(
+        'inverse', unit='', choices=('inverse', 'sea'),
+        doc='between these, new contacts are spread evenly over 1/range, which takes near ones '
+        'for likely, or evenly over the sea: better if the limits are known (modified_polar)',
+    )  # fmt: skip
     memory: int = parameter(
         15, unit='looks', doc='looks in the line (finite_memory)', low=2, high=1000
     )

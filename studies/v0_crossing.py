@@ -50,6 +50,7 @@ OURS: Values = {
     **PAPER,
     'gate.probability': 0.99,
     'estimator': 'modified_polar',
+    'motion.range_prior': 'sea',
     'motion.bearing_noise': [1e-6],
     'motion.rate_noise': [1e-8],
     'sensor.bearing_resolution': RESOLUTION,

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 import pytest
 
-from sonar_tracker.build import build_estimator
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings
@@ -274,24 +273,3 @@ def test_config_refuses_what_does_not_fit(values, words: str) -> None:
     """Parameters that contradict each other are refused, with what would be right."""
     with pytest.raises(ValueError, match=words):
         with_values(SonarTrackerConfig(), values)
-
-
-@pytest.mark.parametrize(('nearest', 'farthest'), [(300.0, 12_000.0), (5_000.0, 8_000.0)])
-def test_new_contacts_are_spread_evenly_over_the_sea(nearest: float, farthest: float) -> None:
-    """The prior of 1 over range is that of places anywhere between the two circles."""
-    values = {
-        'estimator': 'modified_polar', 'motion.range_min': nearest, 'motion.range_max': farthest,
-    }  # fmt: skip
-    filter_ = build_estimator(with_values(SonarTrackerConfig(), values))
-    square = np.random.default_rng(1).uniform(nearest**2, farthest**2, 1_000_000)
-    assert_allclose(filter_.inverse_range, (square**-0.5).mean(), rtol=1e-2)
-    assert_allclose(filter_.inverse_range_sd, (square**-0.5).std(), rtol=1e-2)
-
-
-def test_new_contacts_may_be_at_one_range() -> None:
-    """Limits that are all but equal leave a prior that is not singular."""
-    values = {
-        'estimator': 'modified_polar', 'motion.range_min': 5e3, 'motion.range_max': 5e3 + 1e-9,
-    }  # fmt: skip
-    filter_ = build_estimator(with_values(SonarTrackerConfig(), values))
-    assert_allclose(filter_.inverse_range_sd, 1e-3 * filter_.inverse_range, rtol=1e-3)
