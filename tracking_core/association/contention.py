@@ -75,6 +75,18 @@ def solve_each(contest: Contest, kinds: Iterable[tuple[Solve, Bools]]) -> Floats
     return probability
 
 
+def swapped(solve: Solve) -> Solve:
+    """Return what solves clusters of two plots, if `solve` does so with those of two tracks."""
+
+    def solve_swapped(contest: Contest) -> Floats:
+        order, turned = contest.swap()
+        probability = np.empty(len(order))
+        probability[order] = solve(turned)
+        return probability
+
+    return solve_swapped
+
+
 def _contend(
     row: Ints, column: Ints, gain: Floats, rows: int, columns: int, settle: Settle,
     rows_are_tracks: bool = False,

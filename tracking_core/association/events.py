@@ -24,7 +24,7 @@ from tracking_core.batches import Bools, Floats, Ints
 # sums could differ in the last digit: the same input gives the same bytes.
 MOST_PRODUCTS = 2**18
 PADDING = 2**16  # products that take less time than a batch of their own
-MOST_COLUMNS = np.array([0, 0, 8, 8, 6, 5, 0])  # most columns of a cluster with so many rows
+MOST_COLUMNS = np.array([0, 0, 8, 8, 6, 5, 0])  # of a cluster with so many rows
 
 
 def have_few(tracks: Ints, plots: Ints) -> Bools:

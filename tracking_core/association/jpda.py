@@ -16,7 +16,7 @@ import numpy as np
 
 from tracking_core.association.belief import propagate
 from tracking_core.association.clusters import Contest
-from tracking_core.association.contention import share_jointly, solve_each
+from tracking_core.association.contention import share_jointly, solve_each, swapped
 from tracking_core.association.events import have_few, sum_up_events
 from tracking_core.association.exact import marginalise
 from tracking_core.association.sums import choose, log_others
@@ -73,19 +73,11 @@ def sum_up(contest: Contest, largest: int = LARGEST) -> tuple[Floats, Bools]:
     kinds = (
         (sum_up_events, few),
         (_duel, two),
-        (_duel_of_plots, other),
+        (swapped(_duel), other),
         (marginalise, tables),
         (propagate, large),
     )
     return solve_each(contest, kinds), large[contest.cluster]
-
-
-def _duel_of_plots(contest: Contest) -> Floats:
-    """Solve clusters of two plots, whose tracks all have both: a duel with the parts swapped."""
-    order, swapped = contest.swap()
-    probability = np.empty(len(order))
-    probability[order] = _duel(swapped)
-    return probability
 
 
 def _duel(contest: Contest) -> Floats:

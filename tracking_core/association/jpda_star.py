@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from tracking_core.association.clusters import Contest
-from tracking_core.association.contention import share_jointly, solve_each
+from tracking_core.association.contention import share_jointly, solve_each, swapped
 from tracking_core.association.events import have_few, sum_up_events
 from tracking_core.association.forest import sum_up_forest
 from tracking_core.association.permutations import comparisons, sum_up_best
@@ -62,19 +62,11 @@ def _settle(contest: Contest) -> tuple[Floats, Bools]:
     kinds = (
         (partial(sum_up_events, best_only=True), few),
         (_duel, two),
-        (_duel_of_plots, other),
+        (swapped(_duel), other),
         (sum_up_best, rest & ~large),
         (sum_up_forest, large),
     )
     return solve_each(contest, kinds), large[contest.cluster]
-
-
-def _duel_of_plots(contest: Contest) -> Floats:
-    """Solve clusters of two plots, whose tracks all have both: a duel with the parts swapped."""
-    order, swapped = contest.swap()
-    probability = np.empty(len(order))
-    probability[order] = _duel(swapped)
-    return probability
 
 
 def _duel(contest: Contest) -> Floats:
