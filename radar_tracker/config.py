@@ -173,8 +173,8 @@ class RadarTrackerConfig:
     )  # fmt: skip
     longest_pause: float = parameter(
         0.0, unit='s', low=0.0, live=True,
-        doc='a track that nobody looked at for longer ends, who is who is not known any more: '
-        'several looks at least; 0: none does',
+        doc='after a pause that is longer, several looks at least, tracks end, since nobody knows '
+        'who is who; 0: they go on',
     )  # fmt: skip
     max_tracks: int = parameter(
         5000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000

@@ -4,10 +4,9 @@
 
 from __future__ import annotations
 
-import math
-
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.marked import Marked
+from sonar_tracker.range_prior import RANGE_PRIORS
 from sonar_tracker.sensor import Sonar
 from tracking_core.association import ASSOCIATORS, DECIDING
 from tracking_core.composition import Plane, Setup
@@ -25,7 +24,6 @@ from tracking_core.motion import RandomWalk
 from tracking_core.resolution import Resolution
 
 _SECONDS_PER_HOUR = 3600.0
-_LEAST_SPREAD = 1e-6  # of 1 over range, variance over squared mean: limits that are all but equal
 _START_SHARE = 0.5  # a new track may be this much less likely than one that is dropped
 
 
@@ -75,7 +73,7 @@ def build_estimator(config: SonarTrackerConfig) -> Estimator:
         return DecoupledKalman(walks[0])
     if config.estimator == 'finite_memory':
         return FiniteMemory(motion.memory)
-    mean, sd = _PRIORS[motion.range_prior](motion.range_min, motion.range_max)
+    mean, sd = RANGE_PRIORS[motion.range_prior](motion.range_min, motion.range_max)
     return ModifiedPolar(
         bearing_noise=motion.bearing_noise,
         rate_noise=motion.rate_noise,
@@ -84,22 +82,6 @@ def build_estimator(config: SonarTrackerConfig) -> Estimator:
         inverse_range=mean,
         inverse_range_sd=sd,
     )
-
-
-def _even_over_inverse_range(nearest: float, farthest: float) -> tuple[float, float]:
-    """Return mean and sd of 1 over range [1/m] if all values between the limits are as likely."""
-    near, far = 1.0 / nearest, 1.0 / farthest
-    return 0.5 * (near + far), (near - far) / math.sqrt(12.0)
-
-
-def _even_over_the_sea(nearest: float, farthest: float) -> tuple[float, float]:
-    """Return mean and sd of 1 over range [1/m] if all places between the limits are as likely."""
-    mean = 2.0 / (nearest + farthest)
-    square = 2.0 * math.log(farthest / nearest) / (farthest**2 - nearest**2)
-    return mean, math.sqrt(max(square - mean**2, _LEAST_SPREAD * mean**2))
-
-
-_PRIORS = {'inverse': _even_over_inverse_range, 'sea': _even_over_the_sea}
 
 
 def _with_marks(estimator: Estimator, config: SonarTrackerConfig) -> Estimator:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from sonar_tracker.range_prior import RANGE_PRIORS
 from tracking_core.config import parameter, validate
 
 
@@ -34,7 +35,7 @@ class MotionConfig:
         50_000.0, unit='m', doc='farthest new contact (modified_polar)', low=1.0
     )
     range_prior: str = parameter(
-        'inverse', unit='', choices=('inverse', 'sea'),
+        'inverse', unit='', choices=tuple(RANGE_PRIORS),
         doc='between these, new contacts are spread evenly over 1/range, which takes near ones '
         'for likely, or evenly over the sea: better if the limits are known (modified_polar)',
     )  # fmt: skip

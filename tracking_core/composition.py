@@ -65,7 +65,7 @@ class Setup:
     least_existence: float  # of a new track
     merge: MergeConfig
     max_tracks: int
-    longest_pause: float = 0.0  # a track that nobody looked at for longer ends [s]; 0: none does
+    longest_pause: float  # a track that nobody looked at for longer ends [s]; 0: none does
     resolution: Resolution | None = None  # None: every contact gives its own plot
 
     def with_sensor(self, sensor: ResolvingSensor) -> Setup:
