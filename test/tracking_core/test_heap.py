@@ -15,7 +15,8 @@ TUNED = ('GLIBC_TUNABLES', 'MALLOC_TRIM_THRESHOLD_', 'MALLOC_TOP_PAD_', 'MALLOC_
 SCANS = """
 import resource
 import numpy as np
-from tracking_core.heap import keep_freed_memory
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.tracker import RadarTracker
 {call}
 def faults():
     return resource.getrusage(resource.RUSAGE_SELF).ru_minflt
@@ -38,8 +39,8 @@ def faults(call: str) -> int:
 
 @pytest.mark.skipif(platform.libc_ver()[0] != 'glibc', reason='other C libraries do as they like')
 def test_a_scan_finds_the_memory_of_the_last_one() -> None:
-    """Without the call all pages are asked for anew, with it none."""
+    """Without a tracker all pages are asked for anew, in a process with one none."""
     without = faults('')
     if without < 100:
         pytest.skip('pages of this system are so large that there is nothing to save')
-    assert faults('keep_freed_memory()') < 0.1 * without
+    assert faults('RadarTracker(RadarTrackerConfig())') < 0.1 * without
