@@ -32,8 +32,7 @@ from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.config import parameters, with_values
 from tracking_tools.parameter_file import parse_value, read_parameter_file
 
-# And first draw. Seeds below, and 3000 to 3059, were looked at while the presets were made.
-FIRST_SCENE = 1000
+FIRST = 1000  # seeds below, and 3000 to 3059, were looked at while the presets were made
 COLUMNS = tuple(field.name for field in fields(Score))
 
 
@@ -96,6 +95,7 @@ def main() -> None:
     """Print the scores."""
     parser = argparse.ArgumentParser(description='Bearing tracks of real movements, scored.')
     parser.add_argument('folder', type=Path, nargs='?', default=data_folder())
+    parser.add_argument('--first', type=int, default=FIRST, help='seed of draws and scenes')
     parser.add_argument('--draws', type=int, default=30, help='of marks for each recording')
     parser.add_argument('--scenes', type=int, default=40, help='simulated scenes')
     parser.add_argument('--jobs', type=int, default=2, help='processes')
@@ -108,11 +108,11 @@ def main() -> None:
             rows = track(record, {**preset(name), **values})
             print(line(record.name, astuple(score(record, rows))), flush=True)
             if given.draws and name == 'direction_finder':
-                seeds = range(FIRST_SCENE, FIRST_SCENE + given.draws)
+                seeds = range(given.first, given.first + given.draws)
                 drawn = pool.map(partial(drawn_score, record, values), seeds)
                 print(*mean_lines('... drawn anew', drawn), sep='\n', flush=True)
         if given.scenes:
-            seeds = range(FIRST_SCENE, FIRST_SCENE + given.scenes)
+            seeds = range(given.first, given.first + given.scenes)
             found = pool.map(partial(scene_score, values), seeds)
             print(*mean_lines('scenes', found), sep='\n')
 

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.recordings import data_folder
-from benchmarks.sonar_data import COLUMNS, FIRST_SCENE, preset
+from benchmarks.sonar_data import COLUMNS, FIRST, preset
 from benchmarks.sonar_recordings import DEGREE, Record, vessels
 from benchmarks.sonar_scenes import sea
 from benchmarks.sonar_score import Rows, score
@@ -98,7 +98,7 @@ def main() -> None:
     parser.add_argument('--jobs', type=int, default=2, help='processes')
     given = parser.parse_args()
     recordings = sorted((given.folder / 'sea_ais').glob('btr_*.npz'))
-    seeds = list(range(FIRST_SCENE, FIRST_SCENE + given.scenes))
+    seeds = list(range(FIRST, FIRST + given.scenes))
     names = [path.stem for path in recordings] + [f'{given.scenes} scenes']
     print('| silent within [deg] | ' + ' | '.join(f'{n} purity | swaps' for n in names) + ' |')
     print('|---' * (1 + 2 * len(names)) + '|')
