@@ -102,6 +102,8 @@ class SensorConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
+        if self.dimensions == 1:
+            raise ValueError('SensorConfig.dimensions must be 0, 2 or 3, got 1')
         if self.range_rate_sign == 0:
             raise ValueError('SensorConfig.range_rate_sign must be 1 or -1, got 0')
         if (self.range_resolution > 0.0) != (self.azimuth_resolution > 0.0):

@@ -156,7 +156,7 @@ class SonarTrackerConfig:
         1000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000
     )
     max_plots: int = parameter(
-        5000, unit='1', doc='rows used of one message', low=1, high=1_000_000
+        5000, unit='1', doc='a message with more rows is refused', low=1, high=1_000_000
     )
 
     def __post_init__(self) -> None:

@@ -57,6 +57,7 @@ def test_with_values_sets_nested_parameters_and_keeps_the_rest() -> None:
         ({'motion.horizontal.sojourn_time': [10.0]}, 'one value per mode, got 2, 1 and 2'),
         ({'motion.horizontal.sojourn_time': [10.0, -1.0]}, 'sojourn_time must be in'),
         ({'motion.vertical.sojourn_time': [1.0] * 3}, 'one value per mode, got 2 and 3'),
+        ({'sensor.dimensions': 1}, 'SensorConfig.dimensions must be 0, 2 or 3, got 1'),
         ({'sensor.range_min': 10.0, 'sensor.range_max': 9.0}, 'below range_max = 9.0, got 10.0'),
         ({'m_of_n.hits': 6}, 'MOfNConfig.hits must be at most looks = 5, got 6'),
     ],
