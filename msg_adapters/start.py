@@ -1,7 +1,10 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How the program of a node begins: whoever stops it while it still loads need not wait.
+How the program of a node begins and ends: whoever stops it need not wait for ever.
+
+While it still loads it leaves at once. The middleware gives its threads and sockets back while
+Python ends, and was once seen to spin there without end.
 
 This file is read before anything that takes time to import.
 """
@@ -12,6 +15,8 @@ from collections.abc import Sequence
 from importlib import import_module
 import os
 import signal
+
+LONGEST_END = 10  # from the return of `main` until the process is ended [s]
 
 
 def start(module: str, args: Sequence[str] | None = None) -> int:
@@ -28,7 +33,10 @@ def start(module: str, args: Sequence[str] | None = None) -> int:
     """
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _leave)
-    return int(import_module(module).main(args))
+    code = int(import_module(module).main(args))
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)  # no Python runs then
+    signal.alarm(LONGEST_END)
+    return code
 
 
 def _leave(*_: object) -> None:
