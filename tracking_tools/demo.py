@@ -26,6 +26,7 @@ from tracking_tools.replay_topics import Topics
 from tracking_tools.report import load_page
 from tracking_tools.scene import read_scene
 from tracking_tools.sensors import Configs, Sensor
+from tracking_tools.stopping import STOPPED
 
 ROOT = Path(__file__).parent.parent
 
@@ -52,7 +53,7 @@ def main(arguments: Sequence[str] | None = None, demo: Demo | None = None) -> in
         show(chosen, demo)
     except KeyboardInterrupt:
         print('\ndemo: stopped', file=sys.stderr)
-        return 130
+        return STOPPED
     except (BadBag, NodeFailed, OSError, ValueError) as error:
         print(f'demo: {error}', file=sys.stderr)
         return 1

@@ -16,9 +16,11 @@ from tracking_tools.evaluation import evaluate, to_json, to_text
 from tracking_tools.evaluation.options import add_yardstick, yardstick_of
 from tracking_tools.evaluation.reading import find_sensor
 from tracking_tools.sensors import SENSORS
+from tracking_tools.stopping import stoppable
 from tracking_tools.sweep import main as sweep
 
 
+@stoppable('evaluate')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; many runs of a scenario are a sweep without settings."""
     given = sys.argv[1:] if arguments is None else list(arguments)

@@ -28,6 +28,7 @@ from tracking_tools.picture_style import BACK, dress
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.screen import Screen
 from tracking_tools.sensors import Sensor, SENSORS
+from tracking_tools.stopping import stoppable
 
 SIZE, DPI = (12.8, 8.4), 125  # inches
 KILOMETRE, POINTS = 1000.0, 72.0  # metres in one, and points in an inch
@@ -142,6 +143,7 @@ def _kilometres(metres: float, _: float) -> str:
     return f'{metres / KILOMETRE:g}'
 
 
+@stoppable('marker_picture')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     chosen = _parser().parse_args(arguments)

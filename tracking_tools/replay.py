@@ -33,6 +33,7 @@ from tracking_tools.parameter_file import (
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.report import load_page
 from tracking_tools.sensors import Configs, Sensor, SENSORS
+from tracking_tools.stopping import stoppable, STOPPED
 from tracking_tools.summary import Console, Summary
 
 POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
@@ -112,6 +113,7 @@ def _drive(
                 yield table, received, time.perf_counter() - began
 
 
+@stoppable('replay')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = _parser()
@@ -130,15 +132,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     except KeyboardInterrupt:
         print('replay: stopped; nothing was written', file=sys.stderr)
-        return 130
-    if pages is not None:
-        where = (chosen.sensor, topics, chosen.recording, chosen.output)
-        pages.report_replay(where, configs, summary.step_times, chosen.report)
+        return STOPPED
+    if not chosen.quiet:
+        print(f'{summary}\ntracks: {chosen.output}, topic {topics.tracks}')
     if chosen.picture is not None:
         pictures = import_module(sensor.picture)  # matplotlib takes long to import
         pictures.draw_recording(chosen.recording, chosen.output, topics, configs, chosen.picture)
-    if not chosen.quiet:
-        print(f'{summary}\ntracks: {chosen.output}, topic {topics.tracks}')
+    try:
+        if pages is not None:
+            where = (chosen.sensor, topics, chosen.recording, chosen.output)
+            pages.report_replay(where, configs, summary.step_times, chosen.report)
+    except BadBag as error:
+        print(f'replay: no page: {error}', file=sys.stderr)
+        return 1
     return 0
 
 

@@ -18,6 +18,7 @@ from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.scenarios.menu import build, SCENARIOS
 from tracking_tools.scenarios.messages import EPOCH, PLOTS, send, TRUTH
 from tracking_tools.scenarios.plots import Scenario
+from tracking_tools.stopping import stoppable
 
 POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
 
@@ -69,6 +70,7 @@ def record(
     return rows
 
 
+@stoppable('simulate')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = _parser()

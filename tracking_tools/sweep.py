@@ -19,6 +19,7 @@ from tqdm import tqdm
 from tracking_tools.evaluation.options import add_yardstick, yardstick_of
 from tracking_tools.parameter_file import configure, read_parameter_file
 from tracking_tools.sensors import SENSORS
+from tracking_tools.stopping import STOPPED
 from tracking_tools.sweeping.crew import cores, Crew, crew_of, SweepFailed
 from tracking_tools.sweeping.figures import SHOWN
 from tracking_tools.sweeping.store import Figures, Store, write_whole
@@ -32,7 +33,6 @@ from tracking_tools.sweeping.tasks import (
     Values,
 )
 
-STOPPED = 130
 Planned = list[tuple[Values, Task]]
 
 
@@ -81,6 +81,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = _parser()
     chosen = parser.parse_args(arguments)
+    if chosen.runs < 1:
+        parser.error(f'--runs must be at least 1, got {chosen.runs}')
     try:
         planned = _plan(chosen)
         store = Store(chosen.output)

@@ -131,3 +131,19 @@ def test_main_sums_up_and_lets_settings_win(cut_bag, tmp_path, capsys, messages)
     assert 'plots, range beyond range_max = 60000' in said
     assert 'times real time' in said
     assert len(messages(tmp_path / 'out', '/found')) == TURNS
+
+
+def test_replay_without_a_confirmed_track_says_what_came(tmp_path, capsys, plots_message):
+    """Who asks for a page then reads the summary, has the picture, and reads why no page came."""
+    with BagWriter(tmp_path / 'bad') as bag:
+        for k in range(3):
+            degrees = plots_message(100.0 + 4.0 * k, range=[5e3], azimuth=[90.0])
+            bag.write('plots', degrees, (200 + k) * NANOSECONDS)
+    made = {name: tmp_path / name for name in ('tracks', 'picture.png', 'page.html')}
+    tracks, picture, page = map(str, made.values())
+    words = ['--sensor', 'radar', '--output', tracks, '--picture', picture, '--report', page]
+    assert main([str(tmp_path / 'bad'), *words]) == 1
+    told = capsys.readouterr()
+    assert 'refused: 3 messages' in told.out
+    assert 'replay: no page: ' in told.err
+    assert [path.exists() for path in made.values()] == [True, True, False]

@@ -99,6 +99,7 @@ def test_evaluate_with_runs_is_a_sweep_without_settings(tmp_path: Path) -> None:
         (['crossing', '--set', 'asociation=jpda'], 'did you mean association'),
         (['crossing', '--set', 'association=jpda,none'], 'must be one of'),
         (['crossing', '--set', 'association'], 'name=value'),
+        (['crossing', '--runs', '0'], '--runs must be at least 1, got 0'),
     ],
 )
 def test_sweep_refuses_before_the_first_run(

@@ -16,8 +16,10 @@ from tracking_tools.replay import read_configs
 from tracking_tools.report import load_page
 from tracking_tools.report.material import gather, Sources
 from tracking_tools.sensors import SENSORS
+from tracking_tools.stopping import stoppable
 
 
+@stoppable('report')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     chosen = _parser().parse_args(arguments)
