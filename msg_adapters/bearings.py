@@ -14,7 +14,8 @@ from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import BEARINGS, describe
 from msg_adapters.reading import read_fields, Reading, refuse_if_useless
 from msg_adapters.row_checks import bearing_checks, choose_rows, usable_values
-from tracking_core.batches import Bearings, Floats
+from tracking_core.azimuths import anticlockwise
+from tracking_core.batches import Bearings
 from tracking_core.linalg import wrap_angle
 from tracking_core.rows import take
 
@@ -58,7 +59,7 @@ def to_bearings(
         raise BadMessage('missing field', f'field bearing is missing; {describe(message.columns)}')
     told, doubtful = usable_values(message.values)
     nothing = np.full(len(message), np.nan)
-    bearing = _anticlockwise(message.values.get('bearing', nothing), sensor.azimuth_convention)
+    bearing = anticlockwise(message.values.get('bearing', nothing), sensor.azimuth_convention)
     marks = Bearings(
         time=message.time,
         bearing=bearing,
@@ -72,10 +73,3 @@ def to_bearings(
     marks = take(marks, keep)
     marks = replace(marks, bearing=wrap_angle(marks.bearing))
     return Reading(marks, dropped, doubtful, message.mapping)
-
-
-def _anticlockwise(bearing: Floats, convention: str) -> Floats:
-    """Return bearings anticlockwise from the x axis."""
-    if convention == 'enu':
-        return bearing
-    return (np.pi / 2.0 if convention == 'compass' else 0.0) - bearing

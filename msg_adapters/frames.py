@@ -42,18 +42,43 @@ class TrackingFrame:
     mounted: bool
     announce: Callable[[str], object]
     sensor: str | None = None  # frame of the plots, from the first message
-    moving: bool = False  # own ship is known
+    by_tree: bool = False  # tf2 tells where frames are, and nobody where own ship is
+    has_ship: bool = False  # own ship is known
+    polar: bool = False  # plots are directions from the sensor, not places
     learnt: bool = False  # the name came from a message
     newcomer: Newcomer = field(default_factory=Newcomer)
 
     @property
     def needs_platform(self) -> bool:
-        """Whether the plots come from a sensor on a platform that moves in the tracking frame."""
-        return self.moving and self.sensor != self.name
-
-    def check_plots(self, frame: str) -> None:
         """
-        Accept plots in this frame, or raise BadMessage.
+        Whether the plots are told from a platform that moves in the tracking frame.
+
+        Those in the tracking frame itself are: places need none, directions are from own ship.
+        """
+        return self.moving and (self.is_from_ship or not self.is_true)
+
+    @property
+    def is_from_ship(self) -> bool:
+        """Whether plots are directions from own ship."""
+        return self.polar and self.has_ship
+
+    @property
+    def moving(self) -> bool:
+        """Whether the sensor's platform may move."""
+        return self.has_ship or self.by_tree
+
+    @property
+    def is_true(self) -> bool:
+        """Whether plots are told in the axes of the tracking frame itself."""
+        return self.sensor == self.name
+
+    def tells_true(self, reference: str) -> bool:
+        """Return whether own ship's heading is in the directions, by `azimuth_reference` too."""
+        return reference == 'tracking_frame' or (self.is_true and self.needs_platform)
+
+    def check_plots(self, frame: str, polar: bool = False) -> None:
+        """
+        Accept plots in this frame, places or directions from own ship, or raise BadMessage.
 
         With no tracking frame set and no own ship the sensor is stationary, and its own frame
         becomes the tracking frame.
@@ -74,6 +99,7 @@ class TrackingFrame:
                 'wrong frame',
                 f"header.frame_id is '{frame}', expected '{self.sensor or self.name}': {ways}",
             )
+        self.polar |= polar
 
     def check_ownship(self, frame: str, time: float) -> bool:
         """
@@ -94,9 +120,7 @@ class TrackingFrame:
                 'not believed yet',
                 f"own ship in frame '{frame}' is new, believed from message {AGREEING} on",
             )
-        anew = False
         if not self.name or (self.learnt and not self.moving and frame != self.name):
-            anew = self.sensor is not None
             self.sensor = None
             self._learn(frame, "that of own ship's odometry")
         if frame != self.name:
@@ -105,8 +129,8 @@ class TrackingFrame:
                 f"ownship header.frame_id is '{frame}', the tracking frame is '{self.name}': "
                 'publish the odometry in the tracking frame, or set tracking_frame',
             )
-        self.moving = True
-        return anew
+        self.has_ship = True
+        return stands_still and self.needs_platform
 
     def _learn(self, frame: str, why: str) -> None:
         self.name, self.learnt = frame, True

@@ -83,9 +83,6 @@ class Instrument(Protocol):
 
         """
 
-    def uses_platform(self, frame: TrackingFrame) -> bool:
-        """Return whether plots in this frame need own ship."""
-
     def track(self, plots: Any, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the plots of one message."""
 

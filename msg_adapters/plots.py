@@ -23,6 +23,7 @@ from msg_adapters.position_noise import position_covariance
 from msg_adapters.reading import Fields, read_fields, Reading, refuse_if_useless
 from msg_adapters.row_checks import choose_rows, plot_checks, usable_values
 from msg_adapters.table import from_columns
+from tracking_core.azimuths import anticlockwise
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import wrap_angle
 from tracking_core.rows import take
@@ -36,7 +37,7 @@ class Convention(Protocol):
 
     @property
     def azimuth_convention(self) -> str:
-        """Return 'enu' or 'compass'."""
+        """Return 'enu', 'compass' or 'clockwise'."""
 
     @property
     def range_rate_sign(self) -> int:
@@ -114,12 +115,11 @@ def _assemble(
     """Return the plots of all rows, in our conventions, good and bad."""
     nothing = np.full(len(message), np.nan)
     azimuth = read['azimuth'] if polar else nothing
-    compass = sensor.azimuth_convention == 'compass'
     position = np.stack([read.get(axis, nothing) for axis in 'xyz'], axis=1)
     return Plots(
         time=message.time,
         range=read['range'] if polar else nothing,
-        azimuth=np.pi / 2.0 - azimuth if compass else azimuth,
+        azimuth=anticlockwise(azimuth, sensor.azimuth_convention),
         elevation=_elevation(read, position) if polar else nothing,
         position=position,
         position_covariance=covariance,

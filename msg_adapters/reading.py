@@ -33,6 +33,11 @@ class Reading(Generic[Rows]):
     mapping: dict[str, str]  # our field: theirs
     note: str = ''  # what a user may have meant otherwise, '' for nothing
 
+    @property
+    def is_polar(self) -> bool:
+        """Whether the rows are directions from the sensor; otherwise they are places."""
+        return 'bearing' in self.mapping or {'range', 'azimuth'} <= self.mapping.keys()
+
 
 @dataclass(frozen=True)
 class Fields:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from msg_adapters.axes import check_axes
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.diagnostics import InputCount
 from msg_adapters.frames import TrackingFrame
@@ -61,12 +62,11 @@ class Session:
 
     def _forget(self) -> None:
         """Be as after a start, but for the tracks that must be reported as deleted."""
-        self._follower.history.reset()
-        self.guard.reset()
-        self.whereabouts.reset()
+        for known in (self._follower.history, self.guard, self.whereabouts):
+            known.reset()
         name, is_mounted = self._node_config.tracking_frame, self.instrument.is_mounted
-        is_moving = self.whereabouts.transforms is not None
-        self.frame = TrackingFrame(name, is_mounted, self.log.info, moving=is_moving)
+        by_tree = self.whereabouts.transforms is not None
+        self.frame = TrackingFrame(name, is_mounted, self.log.info, by_tree=by_tree)
         self.stamp: Any = None  # of the last plots that were used
         self.mapping: dict[str, str] = {}
 
@@ -74,7 +74,7 @@ class Session:
         """Take the place of the sensor from these; ValueError if a mount is set too."""
         if self.instrument.is_mounted:
             raise ValueError('use_tf is true and sensor.mount is set: tf2 knows the mount')
-        self.whereabouts.transforms, self.frame.moving = transforms, True
+        self.whereabouts.transforms, self.frame.by_tree = transforms, True
 
     @property
     def counts(self) -> dict[str, InputCount]:
@@ -120,10 +120,10 @@ class Session:
 
     def _follow(self, msg: Any, received: float) -> Any:
         reading = self.instrument.read(msg, self.mapping)
-        self.frame.check_plots(reading.plots.frame)
         plots, history = reading.plots, self._follower.history
-        uses_platform = self.instrument.uses_platform(self.frame)
-        platform = self.whereabouts.of(plots, self.frame) if uses_platform else None
+        self.frame.check_plots(plots.frame, reading.is_polar)
+        check_axes(self.instrument.tracker.config.sensor, self.frame, self.ledger.warn)
+        platform = self.whereabouts.of(plots, self.frame) if self.frame.needs_platform else None
         if history.takes(plots.stamp) and not self.guard.is_going_back:
             self._follower.insert(plots, platform, self.frame)
             self._use(reading)

@@ -4,13 +4,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from radar_tracker.antenna import Sweep
 from radar_tracker.config import MountConfig, SensorConfig
-from tracking_core.batches import Coverage, Floats
+from tracking_core.batches import Coverage, Floats, Plots
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
 
@@ -27,6 +27,32 @@ def sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats | None, 
     platform, c, s = pose.rotation, np.cos(mount.yaw), np.sin(mount.yaw)
     turn = platform @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     return turn, pose.position + platform @ place
+
+
+def in_sensor_axes(plots: Plots, pose: PlatformPose, mount: MountConfig) -> Plots:
+    """
+    Return plots whose directions are true ones, own ship's heading in them, in the sensor's axes.
+
+    Parameters
+    ----------
+    plots : Plots
+        M plots, polar or Cartesian, from the sensor but in the axes of the tracking frame.
+    pose : PlatformPose
+        At their times.
+    mount : MountConfig
+        How the sensor is turned.
+
+    """
+    heading = pose.yaw + mount.yaw
+    c, s = np.cos(heading), np.sin(heading)
+    back = np.stack([np.stack([c, s], axis=1), np.stack([-s, c], axis=1)], axis=1)
+    # Heights, which may be NaN, are left out and do not spread.
+    place, noise = plots.position.copy(), plots.position_covariance.copy()
+    place[:, :2] = np.einsum('mij,mj->mi', back, place[:, :2])
+    noise[:, :2, :] = back @ noise[:, :2, :]
+    noise[:, :, :2] = noise[:, :, :2] @ np.swapaxes(back, 1, 2)
+    azimuth = wrap_angle(plots.azimuth - heading)
+    return replace(plots, azimuth=azimuth, position=place, position_covariance=noise)
 
 
 def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Coverage:

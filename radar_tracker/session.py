@@ -23,9 +23,10 @@ from msg_adapters.tracks import from_tracks, kinematics, to_bodies
 from msg_adapters.trails import Trails
 from radar_tracker.config import MountConfig, RadarTrackerConfig
 from radar_tracker.memory import recall, remember
+from radar_tracker.mounting import in_sensor_axes
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Floats, Plots, Tracks
-from tracking_core.platform import Platform
+from tracking_core.platform import Platform, pose_at
 from tracking_core.rows import take
 
 
@@ -83,12 +84,11 @@ class RadarInstrument:
             )
         return reading
 
-    def uses_platform(self, frame: TrackingFrame) -> bool:
-        """Return whether plots must be brought into the tracking frame."""
-        return frame.needs_platform
-
     def track(self, plots: Plots, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the plots of one message."""
+        sensor = self.tracker.config.sensor
+        if frame.tells_true(sensor.azimuth_reference):
+            plots = in_sensor_axes(plots, pose_at(platform, plots.time), sensor.mount)
         return self.tracker.track(plots, platform)
 
     def to_table(self, previous: Tracks, header: Any) -> Any:

@@ -11,6 +11,7 @@ import numpy as np
 from sonar_tracker.motion_config import MotionConfig
 from sonar_tracker.ranging_config import RangingConfig
 from tracking_core.association import ASSOCIATORS, JOINT
+from tracking_core.azimuths import azimuth_convention, azimuth_reference
 from tracking_core.config import parameter, validate
 from tracking_core.estimators import BEARING_ESTIMATORS
 from tracking_core.lifecycle import LIFECYCLES
@@ -74,10 +75,8 @@ class SensorConfig:
         doc='contacts nearer than this give one mark (linear array: at broadside); '
         '0: every contact gives its own',
     )  # fmt: skip
-    azimuth_convention: str = parameter(
-        'enu', unit='', choices=('enu', 'compass', 'clockwise'),
-        doc='bearings anticlockwise from x, clockwise from north (y), or clockwise from x (ahead)',
-    )  # fmt: skip
+    azimuth_convention: str = azimuth_convention()
+    azimuth_reference: str = azimuth_reference()
     sector_centre: float = parameter(
         0.0, unit='rad', doc='middle of what the sonar hears, sensor axes', low=-np.pi, high=np.pi
     )

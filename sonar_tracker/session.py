@@ -25,7 +25,7 @@ from sonar_tracker.memory import recall, remember
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings, Tracks
 from tracking_core.linalg import wrap_angle
-from tracking_core.platform import Platform
+from tracking_core.platform import Platform, pose_at
 
 
 def sonar_session(
@@ -73,18 +73,11 @@ class SonarInstrument:
         config = self.tracker.config
         return to_bearings(msg, config.sensor, config.max_plots, self._overrides)
 
-    def uses_platform(self, frame: TrackingFrame) -> bool:
-        """Return whether there is own ship: true bearings too are taken from somewhere."""
-        return frame.moving
-
     def track(self, plots: Bearings, platform: Platform | None, frame: TrackingFrame) -> Tracks:
-        """
-        Follow all contacts through the marks of one cycle.
-
-        Marks in the tracking frame itself are true bearings, already turned by own ship's heading.
-        """
-        if platform is not None and not frame.needs_platform:
-            heading = platform.at(plots.time).yaw + self.tracker.config.sensor.mount.yaw
+        """Follow all contacts through the marks of one cycle."""
+        sensor = self.tracker.config.sensor
+        if frame.tells_true(sensor.azimuth_reference):
+            heading = pose_at(platform, plots.time).yaw + sensor.mount.yaw
             plots = replace(plots, bearing=wrap_angle(plots.bearing - heading))
         return self.tracker.track(plots, platform)
 

@@ -53,7 +53,7 @@ class Health:
             return  # tf2 tells
         alone = now - max(self.ownship_at, self.started)
         patience = max(QUIET, session.whereabouts.platform.max_extrapolation)
-        if session.instrument.uses_platform(session.frame) and alone > patience:
+        if session.frame.needs_platform and alone > patience:
             yield f'no ownship for {alone:.0f} s'
 
     def _warnings(self, session: Session) -> Iterator[str]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from msg_adapters.session import Session
 
-OF_FRAME = ('name', 'sensor', 'moving', 'learnt')
+OF_FRAME = ('name', 'sensor', 'has_ship', 'polar', 'learnt')
 
 
 def remember(session: Session) -> dict[str, Any]:

@@ -4,8 +4,10 @@
 
 import pytest
 
+from msg_adapters.axes import check_axes
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.frames import TrackingFrame
+from radar_tracker.config import MountConfig, SensorConfig
 
 
 @pytest.fixture
@@ -24,13 +26,45 @@ def test_stationary_sensor_gives_its_frame_and_says_so_once(said):
     assert len(said) == 1
 
 
-def test_data_in_the_tracking_frame_are_used_as_they_are(said):
+def test_places_in_the_tracking_frame_are_used_as_they_are(said):
     """Also when own ship is known."""
     frame = TrackingFrame('map', False, said.append)
     frame.check_ownship('map', 0.0)
     frame.check_plots('map')
     assert not frame.needs_platform
+    assert not frame.tells_true('frame')
     assert said == []
+
+
+def test_directions_in_the_tracking_frame_are_true_ones_from_own_ship(said):
+    """A north-up radar on a ship is where the ship is, not at the origin."""
+    frame = TrackingFrame('map', False, said.append)
+    frame.check_plots('map', polar=True)
+    assert not frame.needs_platform  # without own ship the sensor stands there
+    for time in (0.0, 0.1):
+        with pytest.raises(BadMessage, match='believed from message 3'):
+            frame.check_ownship('map', time)
+    assert frame.check_ownship('map', 0.2)  # all tracks were taken from the origin
+    assert frame.needs_platform
+    assert frame.tells_true('frame')
+
+
+@pytest.mark.parametrize(('sensor', 'doubts'), [
+    (SensorConfig(azimuth_convention='compass'), True),
+    (SensorConfig(azimuth_convention='clockwise'), False),
+    (SensorConfig(azimuth_convention='compass', azimuth_reference='tracking_frame'), False),
+    (SensorConfig(azimuth_convention='compass', mount=MountConfig(yaw=-1.57)), False),
+])  # fmt: skip
+def test_compass_azimuths_in_the_axes_of_a_ship_are_doubted(said, sensor, doubts):
+    """Nobody counts from the port beam, which is what they say together."""
+    frame = TrackingFrame('', False, said.append)
+    frame.check_plots('radar', polar=True)
+    check_axes(sensor, frame, pytest.fail)  # it stands still, and y may be north
+    frame = TrackingFrame('', False, said.append)
+    frame.check_ownship('odom', 0.0)
+    frame.check_plots('radar', polar=True)
+    check_axes(sensor, frame, lambda _, text: said.append(text))
+    assert ("y axis of 'radar'" in said[-1]) == doubts
 
 
 def test_strange_frame_is_refused_with_both_names_and_ways_out(said):

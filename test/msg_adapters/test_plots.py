@@ -91,6 +91,13 @@ def test_compass_azimuth_becomes_anticlockwise_from_east(types):
     assert np.all((azimuth >= -np.pi) & (azimuth < np.pi))
 
 
+def test_clockwise_azimuth_is_counted_from_ahead(types):
+    """Ahead is 0, starboard negative, port positive, as in the bearings of a sonar."""
+    msg = message(types, range=np.ones(3), azimuth=np.deg2rad([0.0, 90.0, 300.0]))
+    azimuth = to_plots(msg, Sensor(azimuth_convention='clockwise'), 9).plots.azimuth
+    np.testing.assert_allclose(azimuth, np.deg2rad([0.0, -90.0, 60.0]), atol=1e-12)
+
+
 def test_azimuth_beyond_half_a_turn_is_wrapped(types):
     """Sensors that count from 0 to 2 pi give the same directions."""
     msg = message(types, range=np.ones(2), azimuth=[1.5 * np.pi, -1.5 * np.pi])

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from msg_adapters.message_types import stamp_of
 from msg_adapters.table import from_columns, to_columns
-from radar_tracker.config import RadarTrackerConfig
-from radar_tracker.mounting import PlatformDoubt
+from radar_tracker.config import MountConfig, RadarTrackerConfig
+from radar_tracker.mounting import in_sensor_axes, PlatformDoubt
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.sensor import Radar
 from radar_tracker.session import radar_session
@@ -24,6 +25,7 @@ TYPES = pytest.importorskip('msg_adapters.message_types').rosbags_types()
 PERIOD = 2.5  # of the antenna [s]
 BUOYS = np.array([[2000.0, 500.0], [-1500.0, 1800.0], [300.0, -2200.0], [900.0, 1600.0]])
 RANGE_SD, AZIMUTH_SD = 5.0, 0.002
+MOUNT = ('sensor.mount.x', 'sensor.mount.y', 'sensor.mount.yaw')
 QUIET = {'motion.horizontal.acceleration_sd': [0.05, 1.0]}
 NOISE = {'sensor.range_sd': RANGE_SD, 'sensor.azimuth_sd': AZIMUTH_SD}
 
@@ -85,20 +87,84 @@ def turn_of_antenna(number, mount, rng):
 @pytest.mark.parametrize('mount', [(0.0, 0.0, 0.0), (30.0, -8.0, 2.0)], ids=['bow', 'aside'])
 def test_plots_from_a_turning_ship_are_each_brought_to_their_own_time(mount):
     """Buoys lie still within their noise; with one pose a turn they would move by 260 m."""
-    rng, names = np.random.default_rng(4), ('x', 'y', 'yaw')
-    values = {f'sensor.mount.{name}': value for name, value in zip(names, mount, strict=True)}
-    config = with_values(RadarTrackerConfig(), {**NOISE, **QUIET, **values})
+    rng = np.random.default_rng(4)
+    track_buoys([turn_of_antenna(number, mount, rng) for number in range(40)], mount, {})
+
+
+def track_buoys(scans, mount, values):
+    """Track from the circling ship; all buoys must be where they are, and lie still."""
+    placed = dict(zip(MOUNT, mount, strict=True))
+    config = with_values(RadarTrackerConfig(), {**NOISE, **QUIET, **placed, **values})
     radar = radar_session(config, radar_node_config(), TYPES, logging.getLogger('own ship'))
-    for number in range(40):
+    for number, scan in enumerate(scans):
         for time in PERIOD * number + np.arange(0.1 if number else 0.0, PERIOD + 0.05, 0.1):
             place, yaw = circle(np.array(time))
             radar.ownship(odometry(1000.0 + time, place, yaw), 0.0)
-        table = to_columns(radar.plots(turn_of_antenna(number, mount, rng), 0.0), 100)
+        table = to_columns(radar.plots(scan, 0.0), 100)
     rows = table['status'] == 1
     assert rows.sum() == len(BUOYS)
     apart = np.hypot(*(np.stack([table['x'], table['y']])[:, rows, None] - BUOYS.T[:, None]))
     assert apart.min(axis=0).max() < 10.0  # three sigma of a plot is 15 m
     assert table['speed'][rows].max() < 1.0
+
+
+def in_other_words(told, plots, mount):
+    """Return plots of the radar, told as other drivers do, and the parameters that say so."""
+    columns = to_columns(plots, 100)
+    stamp, distance = stamp_of(plots), columns['range']
+    place, yaw = circle(stamp - 1000.0 + columns['time'])
+    true = columns['azimuth'] + yaw + mount[2]
+    arm = Rotation.from_euler('z', yaw[:, None]).apply([*mount[:2], 0.0])[:, :2]
+    x, y = distance * np.cos(true), distance * np.sin(true)
+    north_up = {'sensor.azimuth_reference': 'tracking_frame'}
+    compass = {'sensor.azimuth_convention': 'compass'}
+    polar = {'azimuth': (0.5 * np.pi - true) % (2.0 * np.pi), 'range': distance}
+    frame, told, values = {
+        'head-up': (
+            'radar',
+            {'azimuth': -columns['azimuth'] % (2.0 * np.pi), 'range': distance},
+            {'sensor.azimuth_convention': 'clockwise'},
+        ),
+        'north-up': ('radar', polar, {**compass, **north_up}),
+        'in the tracking frame': ('odom', polar, compass),
+        'x and y, north-up': ('radar', {'x': x, 'y': y}, north_up),
+        'places': (
+            'odom',
+            {'x': x + (place + arm)[:, 0], 'y': y + (place + arm)[:, 1]},
+            # From where the antenna looks nobody tells, and its mount is in the places already.
+            {'scan.assembly': 'snapshot', **dict.fromkeys(MOUNT, 0.0)},
+        ),
+    }[told]
+    msg = from_columns({**told, 'time': columns['time']}, stamp, frame, TYPES)
+    return msg, {**values, 'sensor.position_sd': 2.0 * RANGE_SD}
+
+
+@pytest.mark.parametrize(
+    'told', ['head-up', 'north-up', 'in the tracking frame', 'x and y, north-up', 'places']
+)
+def test_plots_of_a_turning_ship_may_be_told_in_any_way(told):
+    """The buoys lie still in the tracking frame, whether heading and place are told or not."""
+    rng, mount = np.random.default_rng(4), (30.0, -8.0, 2.0)
+    scans = [turn_of_antenna(number, mount, rng) for number in range(40)]
+    scans, values = zip(*(in_other_words(told, scan, mount) for scan in scans), strict=True)
+    track_buoys(scans, mount, values[0])
+
+
+def test_noise_of_north_up_places_is_turned_with_them():
+    """Oracle: rotation matrices; a height that is not known stays so, and nothing else is lost."""
+    pose, place = poses(np.zeros((3, 3)), 0.0, 0.6), np.array([[3.0, 4.0, np.nan]] * 3)
+    noise = np.array([[9.0, 2.0, 0.0], [2.0, 4.0, 0.0], [0.0, 0.0, np.nan]])
+    plots = Plots.polar(np.zeros(3), np.full(3, 5.0), np.zeros(3))
+    plots = replace(plots, position=place, position_covariance=np.tile(noise, (3, 1, 1)))
+    turned = in_sensor_axes(plots, pose, MountConfig(yaw=0.3))
+    back = Rotation.from_euler('z', -0.9).as_matrix()[:2, :2]
+    np.testing.assert_allclose(turned.position[1, :2], back @ [3.0, 4.0], atol=1e-12)
+    np.testing.assert_allclose(
+        turned.position_covariance[2, :2, :2], back @ noise[:2, :2] @ back.T, atol=1e-12
+    )
+    assert np.isnan(turned.position[:, 2]).all()
+    assert np.isnan(turned.position_covariance).sum() == 3
+    np.testing.assert_allclose(turned.azimuth, -0.9)
 
 
 def poses(position_covariance, yaw_variance, yaw):

@@ -105,15 +105,20 @@ def test_odd_rows_within_good_cycles_never_raise():
 
 @pytest.mark.parametrize('mount', [0.0, 0.5])
 def test_true_bearings_and_relative_ones_give_the_same_tracks(mount):
-    """Marks in the frame of own ship's odometry are not turned by its heading again."""
+    """Marks in own ship's frame, or said to be true, are not turned by its heading again."""
     tables = {}
-    for frame, turned in (('sonar', 0.5 * np.pi + mount), ('odom', 0.0)):
-        sonar = session({'sensor.mount.yaw': mount}, ownship_timeout=5.0)
+    for frame, turned, told in (
+        ('sonar', 0.5 * np.pi + mount, 'relative'), ('odom', 0.0, 'true'), ('sonar', 0.0, 'said'),
+    ):  # fmt: skip
+        reference = 'tracking_frame' if told == 'said' else 'frame'
+        values = {'sensor.mount.yaw': mount, 'sensor.azimuth_reference': reference}
+        sonar = session(values, ownship_timeout=5.0)
         for number in range(20):
             sonar.ownship(odometry(number), 0.0)
             table = to_columns(sonar.plots(cycle(number, turned, frame), 0.0), 100)
-        tables[frame] = table
-    relative, true = tables['sonar'], tables['odom']
+        tables[told] = table
+    relative, true = tables['relative'], tables['true']
+    np.testing.assert_array_equal(true['bearing'], tables['said']['bearing'])
     assert np.sum(true['status'] == 1) == 5
     np.testing.assert_array_equal(relative['id'], true['id'])
     apart = np.angle(np.exp(1j * (relative['bearing'] - true['bearing'])))
