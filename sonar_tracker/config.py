@@ -130,7 +130,7 @@ class SonarTrackerConfig:
     merge: MergeConfig = field(default_factory=lambda: MergeConfig(distance=2.0))
     ranging: RangingConfig = field(default_factory=RangingConfig)
     estimator: str = parameter(
-        'kalman', unit='', choices=tuple(BEARING_ESTIMATORS), doc='filter of every track'
+        'modified_polar', unit='', choices=tuple(BEARING_ESTIMATORS), doc='filter of every track'
     )
     output: str = parameter(
         'mmse', unit='', choices=('mmse', 'map'), live=True,

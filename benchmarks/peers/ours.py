@@ -62,6 +62,7 @@ class OurSonar:
             with_values(
                 SonarTrackerConfig(),
                 {
+                    'estimator': 'kalman',
                     'sensor.bearing_sd': knowledge.noise,
                     'sensor.detection_probability': knowledge.detection_probability,
                     'sensor.sector_width': 2.0 * knowledge.region,

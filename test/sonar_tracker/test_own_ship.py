@@ -39,6 +39,35 @@ def test_bearings_of_a_turning_ship_take_heading_and_its_doubt_at_their_own_time
     np.testing.assert_allclose(scan.covariance[:, 0, 0], sd**2 + 0.02**2, rtol=1e-12)
 
 
+def voyage(cycle):
+    """Return a ship at 4 m/s that turns by 69 degrees in two minutes, every second of a cycle."""
+    time = 10.0 * cycle + np.arange(0.0, 10.0, 1.0)
+    every = np.arange(0.0, time[-1] + 0.5, 0.5)
+    yaw = 0.01 * np.clip(every - 500.0, 0.0, 120.0)
+    velocity = 4.0 * np.stack([np.cos(yaw), np.sin(yaw), 0.0 * yaw], axis=1)
+    place, now = 0.5 * np.cumsum(velocity, axis=0), (2.0 * time).astype(int)
+    turn = np.stack([0.0 * yaw, 0.0 * yaw, np.sin(0.5 * yaw), np.cos(0.5 * yaw)], axis=1)
+    doubt = np.zeros((len(time), 3, 3)), np.zeros(len(time))
+    return Platform(time, place[now], turn[now], velocity[now], *doubt), yaw[now[-1]]
+
+
+def test_ids_live_through_a_turn_of_own_ship_with_no_parameters_but_the_noise():
+    """Two vessels, 8 and 5 km off, whose bearings change at another rate after the turn."""
+    rng = np.random.default_rng(1)
+    sonar = SonarTracker(with_values(SonarTrackerConfig(), {'sensor.bearing_sd': 0.005}))
+    for cycle in range(120):
+        ship, yaw = voyage(cycle)
+        time = ship.time[-1]
+        vessels = np.array([[8000.0 - 2.0 * time, 4000.0], [1000.0, time - 5000.0]])
+        line = vessels - ship.position[-1, :2]
+        bearing = np.arctan2(line[:, 1], line[:, 0]) - yaw + 0.005 * rng.standard_normal(2)
+        tracks = sonar.track(Bearings.of(np.full(2, time), bearing), ship)
+        if cycle == 40:
+            before = tracks.id[tracks.confirmed]
+    assert len(before) == 2
+    np.testing.assert_array_equal(tracks.id[tracks.confirmed], before)
+
+
 def test_gates_allow_for_the_doubt_of_the_heading():
     """The heading is off by 2 degrees anew in each cycle: hardly a look is lost."""
     rng, doubt = np.random.default_rng(3), np.radians(2.0)

@@ -72,7 +72,8 @@ def test_tracker_tells_the_range() -> None:
 
 def test_ranging_can_be_off() -> None:
     """Without ranging the filters are bare and nothing is told."""
-    config = with_values(SonarTrackerConfig(), {'ranging.enabled': False})
+    values = {'ranging.enabled': False, 'estimator': 'kalman'}  # one that needs no memory
+    config = with_values(SonarTrackerConfig(), values)
     tracker = SonarTracker(config)
     tracker.start_track(np.array([0.3]), 0.0)
     assert tracker.tracks.planes[0].memory.shape == (1, 0)
