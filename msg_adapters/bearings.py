@@ -24,6 +24,10 @@ class Convention(Protocol):
     """What must be known of a sonar to read its marks."""
 
     @property
+    def angle_unit(self) -> str:
+        """Return 'rad' or 'deg'."""
+
+    @property
     def azimuth_convention(self) -> str:
         """Return 'enu', 'compass' or 'clockwise'."""
 
@@ -54,7 +58,7 @@ def to_bearings(
         For sizes that do not fit or a bearing that is missing; says which.
 
     """
-    message = read_fields(msg, max_marks, BEARINGS, overrides or {})
+    message = read_fields(msg, max_marks, BEARINGS, overrides or {}, sensor.angle_unit)
     if len(message) and 'bearing' not in message.values:
         raise BadMessage('missing field', f'field bearing is missing; {describe(message.columns)}')
     told, doubtful = usable_values(message.values)

@@ -36,6 +36,10 @@ class Convention(Protocol):
     """What must be known of a sensor to read its plots."""
 
     @property
+    def angle_unit(self) -> str:
+        """Return 'rad' or 'deg'."""
+
+    @property
     def azimuth_convention(self) -> str:
         """Return 'enu', 'compass' or 'clockwise'."""
 
@@ -78,7 +82,7 @@ def to_plots(
         For sizes that do not fit or needed fields that are missing; says which.
 
     """
-    message = read_fields(msg, max_plots, PLOTS, overrides or {})
+    message = read_fields(msg, max_plots, PLOTS, overrides or {}, sensor.angle_unit)
     read = message.values
     polar = {'range', 'azimuth'} <= read.keys()
     if not polar and len(message) and not {'x', 'y'} <= read.keys():

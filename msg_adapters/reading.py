@@ -10,6 +10,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from msg_adapters.angles import in_radians
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import find_fields, Names
 from msg_adapters.kinds.menu import columns_of
@@ -54,21 +55,24 @@ class Fields:
         return len(self.time)
 
 
-def read_fields(msg: Any, max_rows: int, names: Names, overrides: Mapping[str, str]) -> Fields:
+def read_fields(
+    msg: Any, max_rows: int, names: Names, overrides: Mapping[str, str], angle_unit: str
+) -> Fields:
     """
-    Return a message of any type on the menu by the names of our fields.
+    Return a message of any type on the menu by the names of our fields, angles in radians.
 
     Raises
     ------
     BadMessage
-        For another type, sizes that do not fit, and for fields that the user named and that are
-        not there.
+        For another type, sizes that do not fit, fields that the user named and that are not
+        there, and for degrees where radians should be.
 
     """
     columns = columns_of(msg, max_rows)
     mapping = find_fields(columns, names, overrides)
     with np.errstate(invalid='ignore'):  # a signalling NaN becomes just a NaN
         values = {ours: _numbers(columns, theirs) for ours, theirs in mapping.items()}
+        values = in_radians(values, angle_unit)
     stamp = stamp_of(msg)
     rows = len(next(iter(columns.values()))) if columns else msg.width * msg.height
     offset = _offset(values, columns, mapping, stamp, rows)

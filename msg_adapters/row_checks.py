@@ -72,7 +72,7 @@ def _time_checks(rows: Plots | Bearings) -> Iterator[Check]:
 def bearing_checks(bearing: Floats) -> Iterator[Check]:
     """Yield what can be wrong with the bearings (M,) of a sonar."""
     yield 'bearing is not a number', ~np.isfinite(bearing)
-    yield 'bearing beyond 2 pi (degrees?)', np.abs(bearing) > WIDEST
+    yield 'bearing beyond 2 pi', np.abs(bearing) > WIDEST
 
 
 def plot_checks(plots: Plots, polar: bool, range_min: float, range_max: float) -> Iterator[Check]:
@@ -87,7 +87,7 @@ def _polar_checks(plots: Plots) -> Iterator[Check]:
     yield 'range is not a number', ~np.isfinite(plots.range)
     yield 'range is negative', plots.range < 0.0
     yield 'azimuth is not a number', ~np.isfinite(plots.azimuth)
-    yield 'azimuth beyond 2 pi (degrees?)', np.abs(plots.azimuth) > WIDEST
+    yield 'azimuth beyond 2 pi', np.abs(plots.azimuth) > WIDEST
     yield 'elevation is not a number', _partly_missing(plots.elevation)
     yield 'elevation beyond pi / 2 (degrees?)', np.abs(plots.elevation) > 0.51 * np.pi
 

@@ -11,7 +11,7 @@ import numpy as np
 from radar_tracker.estimator_config import AlphaBetaConfig, RADAR_ESTIMATORS
 from radar_tracker.motion_config import MotionConfig
 from tracking_core.association import ASSOCIATORS, JOINT
-from tracking_core.azimuths import azimuth_convention, azimuth_reference
+from tracking_core.azimuths import angle_unit, azimuth_convention, azimuth_reference
 from tracking_core.config import parameter, validate
 from tracking_core.lifecycle_config import (
     ExistenceConfig,
@@ -73,6 +73,7 @@ class SensorConfig:
     dimensions: int = parameter(
         0, unit='1', doc='2 or 3; 0: as the first plots tell (elevation or z: 3)', low=0, high=3
     )
+    angle_unit: str = angle_unit()
     azimuth_convention: str = azimuth_convention()
     azimuth_reference: str = azimuth_reference()
     range_rate_sign: int = parameter(

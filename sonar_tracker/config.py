@@ -11,7 +11,7 @@ import numpy as np
 from sonar_tracker.motion_config import MotionConfig
 from sonar_tracker.ranging_config import RangingConfig
 from tracking_core.association import ASSOCIATORS, JOINT
-from tracking_core.azimuths import azimuth_convention, azimuth_reference
+from tracking_core.azimuths import angle_unit, azimuth_convention, azimuth_reference
 from tracking_core.config import parameter, validate
 from tracking_core.estimators import BEARING_ESTIMATORS
 from tracking_core.lifecycle import LIFECYCLES
@@ -75,6 +75,7 @@ class SensorConfig:
         doc='contacts nearer than this give one mark (linear array: at broadside); '
         '0: every contact gives its own',
     )  # fmt: skip
+    angle_unit: str = angle_unit()
     azimuth_convention: str = azimuth_convention()
     azimuth_reference: str = azimuth_reference()
     sector_centre: float = parameter(

@@ -152,7 +152,7 @@ def lines_of_sessions():
 
     use(message(range=[1.0], snr=[2.0]))
     use(message(range=[1e3, 2e3], azimuth=[20.0, 50.0]))
-    use(message(range=[1e3, 2e3], azimuth=[1.0, 50.0]))
+    use(message(range=[1e3] * 3, azimuth=[1.0, 2.0, 50.0]))
     use(message(), tracker={'sensor.range_max': 1500.0})
     use(message(range=[1.0], azimuth=[1.0], velocity=[1.0]))
     use(message(range=[1e3], azimuth=[0.1]), message(104.0, x=[1.0], y=[2.0]))

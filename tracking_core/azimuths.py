@@ -12,7 +12,16 @@ from tracking_core.batches import Floats
 from tracking_core.config import parameter
 
 CONVENTIONS = ('enu', 'compass', 'clockwise')
+ANGLE_UNITS = ('rad', 'deg')
 REFERENCES = ('frame', 'tracking_frame')
+
+
+def angle_unit() -> Any:
+    """Return the dataclass field that says in which unit messages have their angles."""
+    return parameter(
+        'rad', unit='', choices=ANGLE_UNITS,
+        doc='of all angles in the messages, their noise too; parameters and tracks are in rad',
+    )  # fmt: skip
 
 
 def azimuth_convention() -> Any:

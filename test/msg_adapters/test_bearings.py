@@ -16,6 +16,7 @@ from msg_adapters.table import from_columns
 class Sensor:
     """What the adapter asks of a sonar."""
 
+    angle_unit: str = 'rad'
     azimuth_convention: str = 'enu'
 
 
@@ -52,12 +53,12 @@ def test_synonym_is_read_whatever_its_case(types, theirs, ours):
 )
 def test_bearings_are_anticlockwise_and_within_a_turn(types, convention, given, expected):
     """From x in [-pi, pi), wherever the sensor counts from."""
-    reading = to_bearings(message(types, bearing=given), Sensor(convention), 9)
+    reading = to_bearings(message(types, bearing=given), Sensor(azimuth_convention=convention), 9)
     np.testing.assert_allclose(reading.plots.bearing, expected, atol=1e-12)
 
 
 def test_bad_rows_go_alone_and_odd_values_count_as_not_told(types):
-    """NaN and degrees are dropped by reason; an sd of zero is not believed."""
+    """NaN and more than a turn are dropped by reason; an sd of zero is not believed."""
     msg = message(
         types, bearing=[0.1, np.nan, 270.0, 0.4], bearing_sd=[0.0, 0.01, 0.01, 0.02],
         time=[0.0, 0.0, 0.0, 1e3],
@@ -67,7 +68,7 @@ def test_bad_rows_go_alone_and_odd_values_count_as_not_told(types):
     assert np.isnan(reading.plots.bearing_sd).all()
     assert reading.dropped == {
         'bearing is not a number': 1,
-        'bearing beyond 2 pi (degrees?)': 1,
+        'bearing beyond 2 pi': 1,
         'time more than 60 s off the stamp': 1,
     }
     assert reading.doubtful == {'bearing_sd outside [1e-06, 0.5]': 1}

@@ -17,6 +17,7 @@ from tracking_core.batches import Plots
 class Sensor:
     """What the adapter asks of a sensor."""
 
+    angle_unit: str = 'rad'
     azimuth_convention: str = 'enu'
     range_rate_sign: int = 1
     range_min: float = 0.0
@@ -98,6 +99,17 @@ def test_clockwise_azimuth_is_counted_from_ahead(types):
     np.testing.assert_allclose(azimuth, np.deg2rad([0.0, -90.0, 60.0]), atol=1e-12)
 
 
+def test_degrees_are_read_where_the_user_says_so(types):
+    """Unit first, then convention: 300 degrees clockwise from ahead is 60 to port."""
+    msg = message(types, range=[1e3, 1e3], azimuth=[300.0, 5.0], azimuth_sd=[0.3, 0.3])
+    sensor = Sensor(angle_unit='deg', azimuth_convention='clockwise')
+    plots = to_plots(msg, sensor, 9).plots
+    np.testing.assert_allclose(plots.azimuth, np.deg2rad([60.0, -5.0]))
+    np.testing.assert_allclose(plots.azimuth_sd, np.deg2rad(0.3))
+    with pytest.raises(BadMessage, match='angle_unit'):
+        to_plots(msg, Sensor(), 9)
+
+
 def test_azimuth_beyond_half_a_turn_is_wrapped(types):
     """Sensors that count from 0 to 2 pi give the same directions."""
     msg = message(types, range=np.ones(2), azimuth=[1.5 * np.pi, -1.5 * np.pi])
@@ -164,7 +176,7 @@ def test_whole_number_time_is_nanoseconds(types):
         ('range', 2e5, 'range beyond range_max'),
         ('range', 5.0, 'range below range_min'),
         ('azimuth', np.nan, 'azimuth is not a number'),
-        ('azimuth', 180.0, 'azimuth beyond 2 pi'),
+        ('azimuth', 1e4, 'azimuth beyond 2 pi'),
         ('elevation', np.nan, 'elevation is not a number'),
         ('elevation', 30.0, 'elevation beyond'),
         ('time', 3600.0, 'time more than 60 s off'),

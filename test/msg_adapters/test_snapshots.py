@@ -139,7 +139,7 @@ def test_damaged_file_is_refused(kept, sensor, path, change, words):
 @pytest.mark.parametrize(
     ('parameters', 'later', 'words'),
     [
-        ({'estimator': 'finite_memory'}, 0.0, 'parameter estimator was kalman, and is finite_me'),
+        ({'estimator': 'finite_memory'}, 0.0, 'parameter estimator was modified_polar, and is '),
         ({'max_tracks': 7}, 0.0, 'parameter max_tracks was 1000, and is 7 now'),
         ({}, 61.0, 'it is 61.0 s old, limit 60 s (snapshot.max_age)'),
         ({}, -5.0, 'it is -5.0 s old'),
