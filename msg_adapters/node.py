@@ -20,7 +20,7 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.time import Time
 from rclpy.utilities import ok, try_shutdown
 
-from msg_adapters.parameter_blocks import foreign_files
+from msg_adapters.parameter_blocks import foreign_files, missing_files
 from msg_adapters.parameters import BadParameter
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
@@ -53,10 +53,9 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     stops: list[int] = []
     # rclpy ends its context on a signal; Python's own KeyboardInterrupt could come anywhere.
     signal.signal(signal.SIGINT, lambda number, _: stops.append(number))
-    try:
-        rclpy.init(args=None if args is None else list(args))
-    except RuntimeError as error:  # arguments that are none, a parameter file that is not there
-        print(f'cannot start: {error}', file=sys.stderr)
+    wrong = _init(args)
+    if wrong:
+        print(f'cannot start: {wrong}', file=sys.stderr)
         return 1
     try:
         node = make_node()
@@ -79,6 +78,17 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
         try_shutdown()
         _ignore_stops()  # rclpy has put back what was before
     return 0
+
+
+def _init(args: Sequence[str] | None) -> str:
+    """Begin to speak ROS; return why that cannot be, '' if it can."""
+    for path in missing_files(sys.argv if args is None else args):
+        return f'there is no parameter file {path}'
+    try:
+        rclpy.init(args=None if args is None else list(args))
+    except RuntimeError as error:  # arguments that are none
+        return str(error)
+    return ''
 
 
 def _spin(node: Any, stops: list[int]) -> None:
@@ -110,18 +120,6 @@ def subscribe(node: Any, kind: Any, topic: str, callback: Callable[..., None]) -
     qos = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
     options = QoSOverridingOptions.with_default_policies()
     return node.create_subscription(kind, topic, callback, qos, qos_overriding_options=options)
-
-
-def take_waiting(subscription: Any) -> list[tuple[Any, Any]]:
-    """Return what waits on a subscription, oldest first: messages, and what is known of each."""
-    waiting: list[tuple[Any, Any]] = []
-    with subscription.handle:
-        while len(waiting) < DEPTH:  # a publisher may be faster than we can take
-            taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
-            if taken is None:
-                break
-            waiting.append(taken)
-    return waiting
 
 
 def advertise(node: Any, kind: Any, topic: str) -> Any:

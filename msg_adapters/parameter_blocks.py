@@ -107,6 +107,12 @@ def _fits(pattern: str, node: str) -> bool:
     return re.fullmatch(expression, node) is not None
 
 
+def missing_files(arguments: Sequence[str]) -> list[str]:
+    """Return the parameter files on a command line that are not there."""
+    files = [path for option, path in pairwise(arguments) if option == '--params-file']
+    return [path for path in files if not Path(path).exists()]
+
+
 def foreign_files(node: str, arguments: Sequence[str]) -> Iterator[str]:
     """Yield a line for each parameter file on a command line that says nothing to this node."""
     for option, path in pairwise(arguments):

@@ -10,8 +10,6 @@ followed while the node runs.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import fields, is_dataclass
-from difflib import get_close_matches
 import sys
 from typing import Any
 
@@ -22,12 +20,13 @@ from rcl_interfaces.msg import (
     SetParametersResult,
 )
 
-from tracking_core.config import Parameter, parameters, with_values
+from msg_adapters.qos_overrides import complaint, is_override
+from tracking_core.config import hint, Parameter, parameters, with_values
 
 Configs = tuple[Any, ...]
 
 # What rclpy declares by itself.
-_OF_ROS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
+_OF_ROS = ('use_sim_time', 'start_type_description_service')
 _WIDEST_INTEGER = 2**63 - 1
 
 
@@ -59,6 +58,9 @@ class NodeParameters:
 
     def __init__(self, node: Any, configs: Configs, changed: Callable[[Configs], None]) -> None:
         given = overrides(node)
+        for name in filter(is_override, given):
+            if wrong := complaint(name, given[name]):
+                raise BadParameter(f'parameter {wrong}')
         self.configs = _with_values(configs, given)
         self._changed, self.logger = changed, node.get_logger()
         for entry in _all_parameters(self.configs):
@@ -74,9 +76,8 @@ class NodeParameters:
         """Say how many parameters were given, and which names nobody knows."""
         if self.given:
             self.logger.info(f'{self.given} parameters come from files or arguments')
-        for name, near in self.unknown.items():
-            hint = f'; did you mean {near}?' if near else ''
-            self.logger.warning(f'there is no parameter {name}, it has no effect{hint}')
+        for name, meant in self.unknown.items():
+            self.logger.warning(f'there is no parameter {name}, it has no effect{meant}')
 
     def _check(self, changes: list[Any]) -> SetParametersResult:
         """Say whether the node could run with these changes together."""
@@ -143,32 +144,24 @@ def _with_values(configs: Configs, values: Mapping[str, Any]) -> Configs:
 
 def _with_own_values(config: Any, values: Mapping[str, Any]) -> Any:
     own = {p.name: values[p.name] for p in parameters(config) if p.name in values}
+    for name, value in own.items():
+        if value is None:  # rclpy's word for an empty list of a file or an argument
+            raise BadParameter(f'parameter {name} has no value')
     try:
         return with_values(config, own)
     except (TypeError, ValueError) as error:  # an array where a number belongs is a TypeError
-        raise BadParameter(_in_words(config, own, str(error))) from error
+        raise BadParameter(_in_words(own, str(error))) from error
 
 
-def _in_words(config: Any, own: Mapping[str, Any], text: str) -> str:
-    """Return the error with the parameter's full name first."""
-    for field_name, name in _full_names(config):
-        if field_name in text and name in own:
-            return f'parameter {name}: {text.replace(field_name, name)}'
+def _in_words(own: Mapping[str, Any], text: str) -> str:
+    """Return the error, with all that was given where it does not begin with one of these."""
+    if text.partition(' ')[0] in own:
+        return f'parameter {text}'
     given = ', '.join(f'{name} = {value!r}' for name, value in own.items())
     return f'parameters {given}: {text}'
 
 
-def _full_names(config: Any, prefix: str = '') -> Iterator[tuple[str, str]]:
-    """Yield 'Class.field', as errors say it, and the parameter's name."""
-    for f in fields(config):
-        value = getattr(config, f.name)
-        if is_dataclass(value):
-            yield from _full_names(value, f'{prefix}{f.name}.')
-        else:
-            yield f'{type(config).__name__}.{f.name}', prefix + f.name
-
-
 def _unknown(given: Mapping[str, Any], known: set[str]) -> dict[str, str]:
-    """Return the names that no config has, each with the nearest that one has, or ''."""
-    strange = [name for name in given if name not in known and not name.startswith(_OF_ROS)]
-    return {name: ''.join(get_close_matches(name, known, 1)) for name in strange}
+    """Return the names that no config has, each with a word on what was probably meant, or ''."""
+    of_ros = {name for name in given if name in _OF_ROS or is_override(name)}
+    return {name: hint(name, known) for name in given if name not in known | of_ros}

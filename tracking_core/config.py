@@ -9,7 +9,7 @@ such names; both serve nodes, replay, documentation and tests alike.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
 from typing import Any, TypeVar
@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 Config = TypeVar('Config')
+CLOSE = 0.88  # likeness of a name and the one that was meant, 0 to 1
 LARGEST = 1e15  # number without a limit of its own: its powers up to the tenth stay numbers
 MOST = 64  # values of one parameter: matrices of modes grow with the square of their number
 
@@ -117,16 +118,23 @@ def with_values(config: Config, values: Mapping[str, Any]) -> Config:
     Raises
     ------
     ValueError
-        For an unknown name (the nearest known one is named) or a value outside its limits.
+        For an unknown name (the nearest known one is named) or a value outside its limits, by
+        dotted name.
 
     """
     known = [p.name for p in parameters(config)]
     for name in values:
         if name not in known:
-            near = get_close_matches(name, known, 1)
-            hint = f'; did you mean {near[0]}?' if near else ''
-            raise ValueError(f'unknown parameter {name}{hint}')
+            raise ValueError(f'unknown parameter {name}{hint(name, known)}')
     return _with_values(config, dict(values), '')
+
+
+def hint(name: str, known: Collection[str]) -> str:
+    """Return which known name was probably meant, as the end of a sentence, or ''."""
+    near = get_close_matches(name, known, 1, CLOSE) or [
+        other for other in known if other.endswith(f'.{name}')
+    ]
+    return f'; did you mean {near[0]}?' if near else ''
 
 
 def _with_values(config: Config, values: dict[str, Any], prefix: str) -> Config:
@@ -137,7 +145,15 @@ def _with_values(config: Config, values: dict[str, Any], prefix: str) -> Config:
             changed[f.name] = _with_values(old, values, f'{prefix}{f.name}.')
         elif prefix + f.name in values:
             changed[f.name] = coerce(values[prefix + f.name], old)
-    return replace(config, **changed)  # type: ignore[type-var]
+    try:
+        return replace(config, **changed)  # type: ignore[type-var]
+    except ValueError as error:
+        raise ValueError(_by_dotted_name(str(error), type(config).__name__, prefix)) from error
+
+
+def _by_dotted_name(text: str, kind: str, prefix: str) -> str:
+    """Return what a config of a kind says of its parameters, by the names that users know."""
+    return text.replace(f'{kind}.', prefix).replace(f'{kind}: ', f'{prefix[:-1]}: ')
 
 
 def coerce(value: Any, like: Any) -> Any:

@@ -82,6 +82,8 @@ def open_bag(path: Path | str) -> Iterator[AnyReader]:
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(f'no bag at {path}')
+    if path.is_dir() and not (path / 'metadata.yaml').exists():
+        raise BadBag(f'{path} is no rosbag2 recording: there is no metadata.yaml in it')
     try:
         bag = AnyReader([path], default_typestore=TYPESTORE)
         bag.open()

@@ -11,6 +11,7 @@ import sys
 
 from rosbags.highlevel import AnyReaderError
 
+from tracking_tools.arguments import file_to_write
 from tracking_tools.bags import BadBag
 from tracking_tools.evaluation import evaluate, to_json, to_text
 from tracking_tools.evaluation.options import add_yardstick, yardstick_of
@@ -51,7 +52,12 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add('tracks', type=Path, metavar='TRACKS_BAG', help='rosbag2 directory with a track table')
     add('--truth', type=Path, metavar='BAG', help='with the truth; default: the same bag')
-    add('--json', type=Path, metavar='FILE', help='write all figures there, SI units and radians')
+    add(
+        '--json',
+        type=file_to_write,
+        metavar='FILE',
+        help='write all figures there, SI units and radians',
+    )
     add('--sensor', choices=SENSORS, help='whose tracks; default: what the bag has')
     add('--remap', action='append', default=[], metavar='FROM:=TO', help='as truth:=/my/truth')
     add_yardstick(parser)

@@ -20,6 +20,7 @@ import numpy as np
 from rosbags.highlevel import AnyReader
 
 from tracking_core.batches import Floats
+from tracking_tools.arguments import file_to_write
 from tracking_tools.bags import BadBag, NANOSECONDS, open_bag
 from tracking_tools.marker_shapes import draw_markers, places
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
@@ -172,7 +173,7 @@ def _parser() -> argparse.ArgumentParser:
     add('--params', type=Path, required=True, metavar='FILE', help='parameters of the node')
     add('--until', type=float, default=np.inf, metavar='SECONDS', help='of the recording')
     add('--window', type=float, nargs=3, metavar=('X', 'Y', 'WIDTH'), help='of a closer look [m]')
-    add('--output', type=Path, required=True, metavar='PNG', help='picture to write')
+    add('--output', type=file_to_write, required=True, metavar='PNG', help='picture to write')
     return parser
 
 

@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, TypeVar
 
 import yaml
 
 from msg_adapters.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
-from tracking_core.config import parameters, with_values
+from tracking_core.config import hint, parameters, with_values
 
 Configs = TypeVar('Configs', bound=tuple[Any, ...])
 
@@ -74,10 +73,7 @@ def configure(configs: Configs, values: Mapping[str, Any]) -> Configs:
     known = [name for own in names for name in own]
     for name in values:
         if name not in known and not name.startswith(OF_ROS):
-            near = get_close_matches(name, known, 1)
-            raise ValueError(
-                f'unknown parameter {name}' + (f'; did you mean {near[0]}?' if near else '')
-            )
+            raise ValueError(f'unknown parameter {name}{hint(name, known)}')
     return tuple(  # type: ignore[return-value]
         with_values(config, {name: values[name] for name in own if name in values})
         for config, own in zip(configs, names, strict=True)

@@ -24,12 +24,9 @@ from tqdm import tqdm
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.parameter_blocks import BadParameterFile
 from msg_adapters.session import Session
+from tracking_tools.arguments import file_to_write
 from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, open_bag
-from tracking_tools.parameter_file import (
-    configure,
-    parse_value,
-    read_parameter_file,
-)
+from tracking_tools.parameter_file import configure, parse_value, read_parameter_file
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.report import load_page
 from tracking_tools.sensors import Configs, Sensor, SENSORS
@@ -135,17 +132,32 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return STOPPED
     if not chosen.quiet:
         print(f'{summary}\ntracks: {chosen.output}, topic {topics.tracks}')
-    if chosen.picture is not None:
-        pictures = import_module(sensor.picture)  # matplotlib takes long to import
-        pictures.draw_recording(chosen.recording, chosen.output, topics, configs, chosen.picture)
     try:
-        if pages is not None:
-            where = (chosen.sensor, topics, chosen.recording, chosen.output)
-            pages.report_replay(where, configs, summary.step_times, chosen.report)
-    except BadBag as error:
+        _show(chosen, configs, topics, summary, pages)
+    except (BadBag, OSError) as error:
         print(f'replay: no page: {error}', file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print(f'replay: stopped; the tracks are in {chosen.output}', file=sys.stderr)
+        return STOPPED
+    if not summary.tables:
+        why = ', '.join(f'{reason} ({n})' for reason, n in summary.plots.refused.items())
+        print(f'replay: no message of {topics.plots} could be used: {why or "there is none"}',
+              file=sys.stderr)  # fmt: skip
+        return 1
     return 0
+
+
+def _show(
+    chosen: argparse.Namespace, configs: Configs, topics: Topics, summary: Summary, pages: Any
+) -> None:
+    """Make the picture and the page that are asked for."""
+    if chosen.picture is not None:
+        pictures = import_module(SENSORS[chosen.sensor].picture)  # matplotlib is slow to import
+        pictures.draw_recording(chosen.recording, chosen.output, topics, configs, chosen.picture)
+    if pages is not None:
+        where = (chosen.sensor, topics, chosen.recording, chosen.output)
+        pages.report_replay(where, configs, summary.step_times, chosen.report)
 
 
 def read_configs(file: Path | None, settings: Mapping[str, Any], sensor: Sensor) -> Configs:
@@ -173,8 +185,13 @@ def _parser() -> argparse.ArgumentParser:
     add('--remap', action='append', default=[], metavar='FROM:=TO', help='as plots:=/radar/plots')
     add('--output', type=Path, required=True, metavar='OUT_BAG', help='rosbag2 directory to make')
     add('--quiet', action='store_true', help='no progress, no remarks, no summary')
-    add('--picture', type=Path, metavar='PNG', help='draw what came out')
-    add('--report', type=Path, metavar='HTML', help='write a page that shows what came out')
+    add('--picture', type=file_to_write, metavar='PNG', help='draw what came out')
+    add(
+        '--report',
+        type=file_to_write,
+        metavar='HTML',
+        help='write a page that shows what came out',
+    )
     return parser
 
 

@@ -14,6 +14,7 @@ import sys
 from tqdm import tqdm
 
 from msg_adapters.message_types import rosbags_types
+from tracking_tools.arguments import seed
 from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.scenarios.menu import build, SCENARIOS
 from tracking_tools.scenarios.messages import EPOCH, PLOTS, send, TRUTH
@@ -101,7 +102,7 @@ def _parser() -> argparse.ArgumentParser:
     add('--list', action='store_true', help='list the scenarios')
     add('--output', type=Path, metavar='BAG', help='rosbag2 directory to write')
     add('--compress', action='store_true', help='compress the bag (zstd)')
-    add('--seed', type=int, help='of the random numbers')
+    add('--seed', type=seed, help='of the random numbers')
     add('--duration', type=float, metavar='S', help='how long the radar runs [s]')
     add('--sectors', type=int, default=1, metavar='N', help='messages in a turn (default 1)')
     add('--live', action='store_true', help='publish instead, on plots and truth')

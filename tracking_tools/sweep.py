@@ -16,6 +16,7 @@ from typing import Any
 
 from tqdm import tqdm
 
+from tracking_tools.arguments import file_to_write
 from tracking_tools.evaluation.options import add_yardstick, yardstick_of
 from tracking_tools.parameter_file import configure, read_parameter_file
 from tracking_tools.sensors import SENSORS
@@ -172,7 +173,12 @@ def _parser() -> argparse.ArgumentParser:
     add('--duration', type=float, metavar='S', help='of the scenarios [s]')
     add('--jobs', type=int, default=cores(), metavar='N', help='processes; default: all cores')
     add('--dask', metavar='ADDRESS', help='of a Dask scheduler whose workers do it instead')
-    add('--picture', type=Path, metavar='PNG', help='draw a figure over the first parameter')
+    add(
+        '--picture',
+        type=file_to_write,
+        metavar='PNG',
+        help='draw a figure over the first parameter',
+    )
     add('--figure', choices=SHOWN, default='gospa', help='which, default gospa')
     add('--quiet', action='store_true', help='no progress')
     add_yardstick(parser)

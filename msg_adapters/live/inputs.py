@@ -15,7 +15,7 @@ import time
 from typing import Any
 
 from msg_adapters.ledger import Ledger
-from msg_adapters.node import NANOSECONDS, take_waiting
+from msg_adapters.node import DEPTH, NANOSECONDS
 
 Received = tuple[Any, Any]  # a message, and what the transport knows of it
 
@@ -48,7 +48,7 @@ class Inputs:
 
     def waiting(self, topic: str) -> list[Received]:
         """Take all messages that wait, oldest first."""
-        return take_waiting(self.subscriptions[topic])
+        return _take_waiting(self.subscriptions[topic])
 
     def freshest(self, topic: str, received: Received, max_delay: float) -> Received:
         """
@@ -72,6 +72,18 @@ class Inputs:
             self.count(topic, newer[1])
             received = newer
         return received
+
+
+def _take_waiting(subscription: Any) -> list[tuple[Any, Any]]:
+    """Return what waits on a subscription, oldest first: messages, and what is known of each."""
+    waiting: list[tuple[Any, Any]] = []
+    with subscription.handle:
+        while len(waiting) < DEPTH:  # a publisher may be faster than we can take
+            taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
+            if taken is None:
+                break
+            waiting.append(taken)
+    return waiting
 
 
 def age(info: Any) -> float:

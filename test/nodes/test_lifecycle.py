@@ -133,14 +133,15 @@ def test_wrong_transition_is_refused_and_changes_nothing(start_node, probe, sens
 
 @radar_only
 def test_step_that_fails_is_told_and_leaves_nothing_open(start_node, probe, sensor):
-    """A topic that cannot be opened: those that were are closed, and the node waits."""
-    name = f'/{sensor.node}/markers'
-    node = start_node('autostart:=false', f'qos_overrides.{name}.publisher.reliability:=never')
+    """What cannot be used, mount and tf2, is seen after the topics: they are closed again."""
+    node = start_node(
+        'autostart:=false', 'use_tf:=true', 'tracking_frame:=odom', 'sensor.mount.x:=3.0'
+    )
     for _ in range(2):
         assert not probe.peer.change_state(sensor.node, 'configure')
         assert probe.peer.state(sensor.node) == 'unconfigured'
     probe.spin_until(lambda: not topics_of(probe), 'closed topics')
-    assert 'never' in node.wait_for_line('cannot be configured')
+    assert 'use_tf is true' in node.wait_for_line('cannot be configured')
 
 
 @radar_only

@@ -67,6 +67,31 @@ def test_unknown_parameter_is_warned_about_with_the_nearest_name(start_node):
     assert 'did you mean gate.probability?' in line
 
 
+@pytest.mark.parametrize(
+    ('value', 'words'),
+    [
+        ('motion.horizontal.acceleration_sd:=[]', 'acceleration_sd has no value'),
+        ('qos_overrides./plots.subscription.depth:=-3', 'depth must be in [1, 100000] messages'),
+    ],
+)
+@radar_only
+def test_value_that_cannot_be_ends_the_node_with_its_name(start_node, value, words):
+    """One line, exit code 1, nothing of the middleware."""
+    node = start_node(value)
+    assert node.wait() == 1
+    assert words in node.log
+    assert len(node.log.splitlines()) == 1
+
+
+@radar_only
+def test_parameter_file_that_is_not_there_is_named(start_node, tmp_path):
+    """As above."""
+    path = tmp_path / 'nowhere.yaml'
+    node = start_node(arguments=['--params-file', str(path)])
+    assert node.wait() == 1
+    assert node.log == f'cannot start: there is no parameter file {path}\n'
+
+
 @radar_only
 def test_live_parameter_is_described_checked_and_followed(start_node, probe):
     """A live parameter takes an int, refuses nonsense; a structural one cannot be set."""

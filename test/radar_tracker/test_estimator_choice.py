@@ -141,7 +141,7 @@ def test_parameters_reach_the_estimators() -> None:
 @pytest.mark.parametrize(
     ('values', 'match'),
     [
-        ({'alpha_beta.alpha': [0.3, 1.0]}, r'AlphaBetaConfig.alpha must be in \[0.01, 0.99\]'),
+        ({'alpha_beta.alpha': [0.3, 1.0]}, r'alpha_beta.alpha must be in \[0.01, 0.99\]'),
         ({'alpha_beta.alpha': []}, 'must have one value per mode'),
         ({'alpha_beta.covariance': 'joseph'}, 'must be one of steady_state, recursion'),
         ({'alpha_beta.fuzzy.rules': [0, 1]}, 'must have 4 x 4 entries'),

@@ -26,6 +26,7 @@ LIMIT = 0.04
 HERE = Coverage(0.0, 0.0)
 OMNI = Sonar(SensorConfig(bearing_resolution=LIMIT))
 CONFIG = with_values(SonarTrackerConfig(), {
+    'estimator': 'kalman',
     'sensor.bearing_resolution': LIMIT, 'sensor.bearing_sd': 2e-3, 'clutter_density': 0.05,
     'gate.probability': 0.999, 'unresolved.spread': 0.3, 'unresolved.capture': 1e-6,
     'unresolved.interference': 0.0, 'lifecycle': 'm_of_n',

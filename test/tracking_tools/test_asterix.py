@@ -154,6 +154,16 @@ def test_what_cannot_be_read_is_told(arguments, words, capsys):
     assert words in capsys.readouterr().err
 
 
+def test_file_without_reports_makes_no_bag(tmp_path, capsys):
+    """A wrong file is told, with what was found in it."""
+    path, bag = tmp_path / 'notes.txt', tmp_path / 'bag'
+    path.write_text('not ASTERIX')
+    assert main([str(path), '--bag', str(bag)]) == 1
+    said = 'notes.txt gives no message; no reports: truncated or of wrong length 1'
+    assert said in capsys.readouterr().err
+    assert not bag.exists()
+
+
 def test_decoder_is_loaded_before_anybody_is_heard():
     """It takes seconds, in which the datagrams of a radar would be lost."""
     program = (

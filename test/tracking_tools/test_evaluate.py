@@ -164,7 +164,10 @@ FINE: dict[str, Any] = {
 }
 BAD: dict[str, tuple[dict[str, Any], str]] = {
     'no_tracks': ({'/truth': FINE['/truth']}, r'no topic /radar_tracker/tracks or /sonar_tracker'),
-    'no_truth': ({RADAR: FINE[RADAR]}, r'no topic /truth .* it has /radar_tracker/tracks'),
+    'no_truth': (
+        {RADAR: FINE[RADAR]},
+        r'no topic /truth .* it has /radar.*truth:=/TOPIC',
+    ),
     'empty_tracks': ({**FINE, RADAR: {}}, 'no messages'),
     'empty_truth': ({**FINE, '/truth': {}}, '/truth has no rows'),
     'no_confirmed': ({**FINE, RADAR: {0: tracks_at(0, {})}}, 'no confirmed track'),

@@ -170,6 +170,15 @@ def test_nmea_file_becomes_a_bag(tmp_path, capsys):
     np.testing.assert_allclose(np.array(stamps) - midnight, [-2.0, 1.0, 4.0], atol=1e-6)
 
 
+def test_file_without_targets_makes_no_bag(tmp_path, capsys):
+    """A wrong file is told, with what was found in it."""
+    path, bag = tmp_path / 'notes.txt', tmp_path / 'bag'
+    path.write_text('not a sentence\n')
+    assert main([str(path), '--bag', str(bag)]) == 1
+    assert 'gives no message; no reports: damaged sentence 1' in capsys.readouterr().err
+    assert not bag.exists()
+
+
 @pytest.mark.parametrize(
     ('arguments', 'words'),
     [(['log.txt'], 'only a live feed'), (['udp://127.0.0.1:0'], '--origin LAT LON')],

@@ -128,6 +128,19 @@ def test_configure_names_the_nearest_known_parameter(name, near):
         configure((RadarTrackerConfig(), radar_node_config()), {name: 1})
 
 
+@pytest.mark.parametrize('name', ['sensor.bearing_sd', 'initiation.rate_max', 'sensor.array'])
+def test_parameter_of_another_sensor_has_no_near_one(name):
+    """What is only alike is no hint: bearing_sd is not a slip of range_sd."""
+    with pytest.raises(ValueError, match=f'unknown parameter {name}$'):
+        configure((RadarTrackerConfig(), radar_node_config()), {name: 1})
+
+
+def test_name_without_its_group_is_completed():
+    """As users write it first."""
+    with pytest.raises(ValueError, match=r'did you mean sensor\.range_max'):
+        configure((RadarTrackerConfig(), radar_node_config()), {'range_max': 1})
+
+
 @pytest.mark.parametrize('file', sorted(CONFIG.glob('*.yaml')), ids=lambda path: path.stem)
 def test_shipped_parameter_files_configure_the_node(file):
     """Every shipped file is for any node name and has known names and allowed values."""

@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tracking_tools import replay as replay_module
 from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, TYPESTORE
 from tracking_tools.replay import main, replay
 from tracking_tools.replay_topics import Topics
+from tracking_tools.stopping import STOPPED
 
 PARAMETERS = Path(__file__).parents[2] / 'config' / 'terminal_radar.yaml'
 TRACKS = '/radar_tracker/tracks'
@@ -147,3 +149,39 @@ def test_replay_without_a_confirmed_track_says_what_came(tmp_path, capsys, plots
     assert 'refused: 3 messages' in told.out
     assert 'replay: no page: ' in told.err
     assert [path.exists() for path in made.values()] == [True, True, False]
+
+
+def test_interrupted_picture_leaves_the_tracks_and_says_where(
+    cut_bag, tmp_path, capsys, monkeypatch
+):
+    """The bag is complete by then; who runs the command again must know of it."""
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(replay_module, '_show', interrupt)
+    tracks = tmp_path / 'tracks'
+    assert main([str(cut_bag(TURNS)), '--sensor', 'radar', '--output', str(tracks)]) == STOPPED
+    assert capsys.readouterr().err.endswith(f'replay: stopped; the tracks are in {tracks}\n')
+    assert (tracks / 'metadata.yaml').exists()
+
+
+@pytest.mark.parametrize('azimuth', [[], [[90.0], [91.0]]], ids=['empty', 'refused'])
+def test_replay_that_used_nothing_fails_also_when_quiet(tmp_path, capsys, plots_message, azimuth):
+    """A script must notice."""
+    with BagWriter(tmp_path / 'bad') as bag:
+        bag.announce('plots', 'sensor_msgs/msg/PointCloud2')
+        for k, degrees in enumerate(azimuth):
+            bag.write('plots', plots_message(100.0 + k, range=[5e3], azimuth=degrees), k)
+    words = [str(tmp_path / 'bad'), '--sensor', 'radar', '--output', str(tmp_path / 'out')]
+    assert main([*words, '--quiet']) == 1
+    why = 'angles in degrees? (2)' if azimuth else 'there is none'
+    assert capsys.readouterr().err == f'replay: no message of /plots could be used: {why}\n'
+
+
+def test_directory_that_is_no_bag_is_told_so(tmp_path, capsys):
+    """In words of a user, not of a library."""
+    words = [str(tmp_path), '--sensor', 'radar', '--output', str(tmp_path / 'out')]
+    assert main(words) == 1
+    said = capsys.readouterr().err
+    assert f'{tmp_path} is no rosbag2 recording: there is no metadata.yaml in it' in said

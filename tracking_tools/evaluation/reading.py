@@ -67,7 +67,7 @@ def read_tracks(
 ) -> Recorded:
     """Return what `read_recorded` returns, where the sensor and its topics are known."""
     table, stamps = _read_tracks(tracks, topics, NEEDED[kind])
-    real = read_table(truth, topics.truth, ('id', 'x', 'y'))
+    real = read_truth(truth, topics.truth, ('id', 'x', 'y'))
     _check_frames(tracks, topics.tracks, truth, topics.truth)
     _check_overlap(stamps, real['time'], tracks, truth)
     ranges = None
@@ -106,9 +106,9 @@ def find_sensor(bag: Path | str, rules: Sequence[str], sensor: str | None) -> tu
     return next(iter(fits.items()))
 
 
-def read_table(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
-    """Return the rows of all tables on a topic; BadBag without them or without these columns."""
-    _check_topic(bag, topic)
+def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
+    """Return the true rows on a topic; BadBag without them or without these columns."""
+    _check_topic(bag, topic, 'truth')
     table = read_rows(bag, topic, table_rows)
     if not table:
         raise BadBag(f'{bag}: {topic} has no rows')
@@ -121,7 +121,7 @@ def read_table(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
 
 def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tuple[Columns, Floats]:
     """Return the confirmed rows and the stamps of all tables, also of those without rows."""
-    _check_topic(bag, topics.tracks)
+    _check_topic(bag, topics.tracks, 'tracks')
     stamps: list[float] = []
 
     def convert(msg: Any) -> Columns:
@@ -141,13 +141,13 @@ def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tupl
     return choose(confirmed, order), np.unique(stamps)
 
 
-def _check_topic(bag: Path | str, topic: str) -> None:
+def _check_topic(bag: Path | str, topic: str, name: str) -> None:
     with open_bag(bag) as reader:
         kinds = {c.topic: c.msgtype for c in reader.connections}
         if kinds.get(topic) != POINT_CLOUD:
             raise BadBag(
                 f'{bag} has no topic {topic} of type {POINT_CLOUD}; it has {inventory(reader)}. '
-                'Say which it is with --remap FROM:=/TOPIC'
+                f'Say which has the {name} with --remap {name}:=/TOPIC'
             )
 
 

@@ -65,19 +65,22 @@ def _run(kind: Format, chosen: argparse.Namespace, ros: list[str]) -> int:
     if is_live:
         live = import_module('tracking_tools.feeds.node')  # needs rclpy
         chunks = open_udp(chosen.source) if is_udp else kind.chunks(path, feed.counts)
-        return int(live.publish(kind.name, feed, chunks, ros, chosen.rate))
-    _write_bag(feed, kind.chunks(path, feed.counts), chosen.bag)
+        live.publish(kind.name, feed, chunks, ros, chosen.rate)
+        return 0 if is_udp or feed.told else 1
+    _write_bag(feed, kind.chunks(path, feed.counts), path, chosen.bag)
     print(f'{chosen.bag}: {describe(feed)}')
     return 0
 
 
-def _write_bag(feed: Feed, chunks: Iterator[bytes], bag: Path) -> None:
+def _write_bag(feed: Feed, chunks: Iterator[bytes], path: Path, bag: Path) -> None:
     """Write the plots of a file as a bag with the topic ``plots``."""
     bags = import_module('tracking_tools.bags')
     with bags.BagWriter(bag) as out:
         out.announce('plots', 'sensor_msgs/msg/PointCloud2')
         for stamp, msg in feed.messages(chunks):
             out.write('plots', msg, bags.nanoseconds(stamp))
+        if not feed.told:
+            raise ValueError(f'{path} gives no message; {describe(feed)}')
 
 
 def _reference(path: Path, date: datetime | None) -> float:

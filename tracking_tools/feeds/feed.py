@@ -57,6 +57,7 @@ class Feed:
         self.clock, self.source, self._read = DayClock(reference), source, read
         self._types, self._frame, self._with_doppler = types, frame, with_doppler
         self._interval = interval
+        self.told = 0  # messages
         self._waiting: list[tuple[float, Report]] = []  # with their times [s]
 
     def take(self, data: bytes, now: float = np.nan) -> Told | None:
@@ -86,6 +87,7 @@ class Feed:
         plots = [(time, r) for time, r in self._waiting if np.isfinite(r.range)]
         self._waiting = []
         self.counts['plots'] += len(plots)
+        self.told += 1
         return stamp, from_columns(self._columns(plots, stamp), stamp, self._frame, self._types)
 
     def messages(self, chunks: Iterable[bytes]) -> Iterator[Told]:
@@ -132,4 +134,4 @@ def describe(feed: Feed) -> str:
     """Return what became of the reports, in words."""
     source = '/'.join(map(str, feed.source)) if isinstance(feed.source, tuple) else feed.source
     counts = ', '.join(f'{name} {count}' for name, count in sorted(feed.counts.items()))
-    return f'{source or "nobody"}: {counts or "nothing"}'
+    return f'{source or "no reports"}: {counts or "no data came"}'

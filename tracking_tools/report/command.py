@@ -11,6 +11,7 @@ import sys
 
 from rosbags.highlevel import AnyReaderError
 
+from tracking_tools.arguments import file_to_write
 from tracking_tools.evaluation.reading import find_sensor
 from tracking_tools.replay import read_configs
 from tracking_tools.report import load_page
@@ -43,7 +44,7 @@ def _parser() -> argparse.ArgumentParser:
     add('tracks', type=Path, metavar='TRACKS_BAG', help='rosbag2 directory with a track table')
     add('--plots', type=Path, metavar='BAG', help='with the plots or bearings')
     add('--truth', type=Path, metavar='BAG', help='with the truth')
-    add('--output', type=Path, required=True, metavar='HTML', help='page to write')
+    add('--output', type=file_to_write, required=True, metavar='HTML', help='page to write')
     add('--params', type=Path, metavar='FILE', help='parameters that the tracks were made with')
     add('--sensor', choices=SENSORS, help='whose tracks; default: what the bag has')
     add('--remap', action='append', default=[], metavar='FROM:=TO', help='as plots:=/radar/plots')
