@@ -99,6 +99,7 @@ def test_processes_are_stopped_and_gone_on_with(alone: dict[str, bytes], tmp_pat
     assert process.returncode == 130, error.decode()
     assert b'the same command goes on' in error
     assert b'Traceback' not in error
+    assert b'leaked' not in error
     assert workers
     wait_until_gone(workers)
     kept = results(folder)

@@ -11,9 +11,11 @@ from contextlib import contextmanager
 import multiprocessing
 import os
 import signal
-from threading import Thread
+from threading import RLock, Thread
 import time
 from typing import Any
+
+from tqdm import tqdm
 
 from tracking_tools.sweeping.tasks import Task
 from tracking_tools.sweeping.work import work
@@ -86,6 +88,7 @@ def _one_thread_each() -> Iterator[None]:
 def _begin(parent: int) -> None:
     """Leave Ctrl-C to the parent, and do not outlive it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    tqdm.set_lock(RLock())  # its own is a semaphore, which is left behind where a process is ended
     Thread(target=_end_with, args=(parent,), daemon=True).start()
 
 
