@@ -29,6 +29,7 @@ from rosbags.typesys.store import Typestore
 
 TYPESTORE: Typestore = get_typestore(Stores.ROS2_JAZZY)
 NANOSECONDS = 1_000_000_000
+MAX_ROWS = 1_000_000  # of one message that the tools read
 _STORAGE = 'recording'
 # What rmw reports for a publisher that sets neither deadline nor lifespan nor lease.
 _UNLIMITED = QosTime(9223372036, 854775807)

@@ -13,18 +13,16 @@ import numpy as np
 
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.bearings import to_bearings
-from msg_adapters.ownship import to_platform
 from msg_adapters.table import Columns
 from msg_adapters.track_rows import CONFIRMED
 from sonar_tracker.config import SensorConfig
 from tracking_core.batches import Floats
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, PlatformPose, pose_at
-from tracking_tools.bags import open_bag
+from tracking_tools.bags import MAX_ROWS
+from tracking_tools.own_ship import read_platform
 from tracking_tools.replay_topics import Topics
-from tracking_tools.scene import choose, frame_of, MAX_ROWS, read_rows, since, table_rows
-
-_UNLIMITED = 1e9  # s, samples
+from tracking_tools.scene import choose, frame_of, read_rows, since, table_rows
 
 
 @dataclass(frozen=True)
@@ -71,8 +69,10 @@ def read_bearing_scene(
     """
     platform = read_platform(recording, topics.ownship)
     marks = read_rows(recording, topics.plots, lambda msg: _marks(msg, sensor, fields))
-    # Marks in the frame of own ship's odometry are true bearings.
-    turned = frame_of(recording, topics.plots) != frame_of(recording, topics.ownship)
+    # Marks in the frame of own ship's odometry are true bearings, and those that are said to be.
+    turned = sensor.azimuth_reference == 'frame' and (
+        frame_of(recording, topics.plots) != frame_of(recording, topics.ownship)
+    )
     if len(marks.get('time', ())) and platform is not None and turned:
         heading = pose_at(platform, marks['time']).yaw + sensor.mount.yaw
         marks = {**marks, 'bearing': wrap_angle(marks['bearing'] + heading)}
@@ -85,20 +85,6 @@ def read_bearing_scene(
     marks, table, real, own = (since(begin, part) for part in (marks, table, real, own))
     confirmed = table.get('status', np.zeros(0)) == CONFIRMED
     return BearingScene(marks, choose(table, confirmed), real, own)
-
-
-def read_platform(recording: Path | str, topic: str) -> Platform | None:
-    """Return own ship all through the recording, None without."""
-    platform = Platform.empty(_UNLIMITED, int(_UNLIMITED))
-    with open_bag(recording) as bag:
-        chosen = [connection for connection in bag.connections if connection.topic == topic]
-        for connection, _, raw in bag.messages(chosen) if chosen else ():
-            msg: Any = bag.deserialize(raw, connection.msgtype)
-            try:
-                platform = platform.add(to_platform(msg))
-            except BadMessage:
-                continue
-    return platform if len(platform) else None
 
 
 def _marks(msg: Any, sensor: SensorConfig, fields: Mapping[str, str]) -> Columns:

@@ -151,21 +151,25 @@ def _draw_track(axes: Any, path: Any, colour: str) -> None:
 
 
 def _frame(axes: Any, scene: Scene) -> None:
-    """Show all tracks and, where the plots are in their frame, the radar with range rings."""
+    """Show all tracks and, where plots can be placed, the radar: with range rings, or its path."""
     rows = scene.tracks if len(scene.tracks.get('x', ())) else scene.plots
-    origin = [0.0] if len(scene.plots) else []
-    x, y = (np.append(rows.get(axis, ()), origin) / KM for axis in 'xy')
+    own = [scene.plots.get(f'sensor_{axis}', NONE) / KM for axis in 'xy']
+    x, y = (np.append(rows.get(axis, NONE) / KM, own[n]) for n, axis in enumerate('xy'))
     half = (0.5 + MARGIN) * max(np.ptp(x), np.ptp(y), 1.0) if len(x) else 1.0
     middle = [(v.min() + v.max()) / 2.0 if len(v) else 0.0 for v in (x, y)]
     axes.set_xlim(middle[0] - half, middle[0] + half)
     axes.set_ylim(middle[1] - half, middle[1] + half)
     axes.set_aspect('equal')
-    if not len(scene.plots):
+    if not len(own[0]):
         return
+    if np.ptp(own[0]) or np.ptp(own[1]):
+        axes.plot(*own, '-', color=INK, linewidth=1.0, zorder=2, label='own ship')
+        return
+    here = (own[0][0], own[1][0])
     step = 2.0 * 10.0 ** np.floor(np.log10(half / 2.0))
     for ring in step * np.arange(1, RINGS + 1):
-        axes.add_patch(Circle((0.0, 0.0), ring, fill=False, edgecolor=LINES, linewidth=0.8))
-    axes.plot(0.0, 0.0, '^', color=INK, markersize=8, zorder=7, label='radar')
+        axes.add_patch(Circle(here, ring, fill=False, edgecolor=LINES, linewidth=0.8))
+    axes.plot(*here, '^', color=INK, markersize=8, zorder=7, label='radar')
     axes.annotate(
         f'range rings {step:g} km apart', (0.99, 0.01), xycoords='axes fraction', color=FAINT,
         fontsize=8.5, ha='right', va='bottom',

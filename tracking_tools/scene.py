@@ -13,15 +13,14 @@ from typing import Any
 import numpy as np
 
 from msg_adapters.message_types import seconds
-from msg_adapters.plots import to_plots
 from msg_adapters.table import Columns, to_columns
 from msg_adapters.track_rows import CONFIRMED
 from radar_tracker.config import SensorConfig
 from tracking_core.batches import Bools, Floats, Ints
-from tracking_tools.bags import open_bag
+from tracking_tools.bags import MAX_ROWS, open_bag
+from tracking_tools.own_ship import read_platform
+from tracking_tools.plot_places import PlotPlaces
 from tracking_tools.replay_topics import Topics
-
-MAX_ROWS = 1_000_000  # of one message
 
 
 @dataclass(frozen=True)
@@ -32,7 +31,7 @@ class Scene:
     `time` and `stamp`, that of the message, count from the beginning of the recording [s].
     """
 
-    plots: Columns  # x, y; empty unless the tracks are in the frame of the sensor
+    plots: Columns  # x, y, and sensor_x, sensor_y; empty where nobody can place them
     published: Columns  # confirmed tracks, a row per track and message
     truth: Columns  # id, x, y, z, vx, vy, vz, time; empty without a truth
 
@@ -79,15 +78,19 @@ def read_scene(
 
     """
     topics, sensor = topics or Topics(), sensor or SensorConfig()
-    plots = read_rows(recording, topics.plots, lambda msg: _positions(msg, sensor, fields or {}))
+    frame = frame_of(tracks, topics.tracks)
+    is_told = frame_of(recording, topics.ownship) == frame
+    platform = read_platform(recording, topics.ownship) if is_told else None
+    plots = read_rows(
+        recording, topics.plots, PlotPlaces(sensor, fields or {}, platform, frame).of
+    )
     real = read_rows(recording if truth is None else truth, topics.truth, table_rows)
     table = read_rows(tracks, topics.tracks, table_rows)
     timed = [part['time'] for part in (plots, table) if len(part.get('time', ()))]
     begin = float(min(times.min() for times in timed)) if timed else 0.0
     plots, table, real = (since(begin, part) for part in (plots, table, real))
     confirmed = table.get('status', np.zeros(0)) == CONFIRMED
-    same = frame_of(recording, topics.plots) == frame_of(tracks, topics.tracks)
-    return Scene(plots=plots if same else {}, published=choose(table, confirmed), truth=real)
+    return Scene(plots=plots, published=choose(table, confirmed), truth=real)
 
 
 def choose(columns: Columns, rows: Bools | Ints | slice) -> Columns:
@@ -101,8 +104,8 @@ def of_id(columns: Columns, number: int) -> Columns:
 
 
 def turn_rate(path: Columns) -> Floats:
-    """Return how fast a path's course turns at each of its rows [rad/s], anticlockwise."""
-    if len(path['time']) < 2:
+    """Return how fast a path's course turns at its rows [rad/s], anticlockwise; 0 if not told."""
+    if len(path['time']) < 2 or not {'vx', 'vy'} <= path.keys():
         return np.zeros(len(path['time']))
     course = np.unwrap(np.arctan2(path['vy'], path['vx']))
     return np.asarray(np.gradient(course, path['time']))
@@ -139,22 +142,6 @@ def table_rows(msg: Any) -> Columns:
     offset = columns.get('time', np.zeros(msg.width * msg.height))
     stamp = np.full(len(offset), seconds(msg.header.stamp))
     return {**columns, 'time': stamp + offset.astype(np.float64), 'stamp': stamp}
-
-
-def _positions(msg: Any, sensor: SensorConfig, fields: Mapping[str, str]) -> Columns:
-    """Return where a message's plots are in plan; of a bad message nothing."""
-    try:
-        plots = to_plots(msg, sensor, MAX_ROWS, fields).plots
-    except ValueError:
-        return {'time': np.zeros(0)}
-    level = plots.range * np.cos(np.nan_to_num(plots.elevation))
-    x, y = level * np.cos(plots.azimuth), level * np.sin(plots.azimuth)
-    is_polar = np.isfinite(plots.range)
-    return {
-        'x': np.where(is_polar, x, plots.position[:, 0]),
-        'y': np.where(is_polar, y, plots.position[:, 1]),
-        'time': plots.time,
-    }
 
 
 def since(begin: float, part: Columns) -> Columns:

@@ -16,10 +16,10 @@ from msg_adapters.table import Columns
 from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Floats
 from tracking_tools.bags import BadBag, open_bag
-from tracking_tools.bearing_scene import read_platform
 from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.evaluation.rows import bearing_rows, NEEDED, position_rows
 from tracking_tools.evaluation.truths import bearings_of, positions_of, ranges_of
+from tracking_tools.own_ship import read_platform
 from tracking_tools.replay_topics import inventory, Topics
 from tracking_tools.scene import choose, frame_of, read_rows, table_rows
 from tracking_tools.sensors import SENSORS
