@@ -12,6 +12,7 @@ from __future__ import annotations
 from copy import copy
 from typing import Any
 
+from msg_adapters.bad_message import BadMessage
 from msg_adapters.frames import TrackingFrame
 from msg_adapters.history import History, Step
 from msg_adapters.instrument import Instrument
@@ -50,8 +51,8 @@ class Follower:
 
         Raises
         ------
-        StalePlatform
-            If own ship is not known then; nothing has changed.
+        BadMessage, StalePlatform
+            If they cannot be used, as own ship is not known then; nothing has changed.
 
         """
         tracker = self._instrument.tracker
@@ -63,7 +64,7 @@ class Follower:
             self.step(plots, platform, frame)
             for step in later:
                 self.step(step.plots, step.platform, frame)
-        except StalePlatform:
+        except (BadMessage, StalePlatform):
             tracker.restore(now)
             self.history = history
             raise

@@ -38,14 +38,30 @@ class Sweep:
     contiguous: bool = False
 
 
+@dataclass(frozen=True)
+class Beam:
+    """Where the antenna points, where that is known otherwise than from the plots' times."""
+
+    time: float  # [s]
+    azimuth: float  # at this time, sensor axes [rad]
+    rate: float  # anticlockwise positive [rad/s]
+    end_time: float  # of the sector [s]
+
+
 class Antenna:
     """Follows the rotation of one antenna from message to message."""
 
     def __init__(
-        self, period: float, full_turns: bool, time_reference: str, stares: bool = False
+        self,
+        period: float,
+        full_turns: bool,
+        time_reference: str,
+        stares: bool = False,
+        collects: bool = False,
     ) -> None:
         self._period = period  # [s], 0: to be learnt
         self._full_turns = full_turns
+        self._collects = collects  # messages are sectors that were put together to whole turns
         self._reference = time_reference
         self._rate = 0.0  # [rad/s], 0: not known
         self._time, self._azimuth = np.zeros(0), np.zeros(0)
@@ -60,7 +76,7 @@ class Antenna:
         """Learnt rate [rad/s], anticlockwise positive; 0 if the sensor does not rotate."""
         return self._rate
 
-    def follow(self, plots: Plots, azimuth: Floats) -> Sweep:
+    def follow(self, plots: Plots, azimuth: Floats, beam: Beam | None = None) -> Sweep:
         """
         Return what the message swept.
 
@@ -70,6 +86,8 @@ class Antenna:
             M plots with their times, and the stamp of the message.
         azimuth : (M,) array
             Of the plots in sensor axes [rad].
+        beam : Beam, optional
+            Where the antenna points; learnt from the plots without.
 
         """
         start = min(plots.stamp, float(plots.time.min(initial=np.inf)))
@@ -78,11 +96,17 @@ class Antenna:
             interval = start - self._start
             longest = 1.5 * self._interval if self._interval else np.inf
             self._interval = interval if interval < longest else self._interval
-        self._learn(plots.time, azimuth)
+        if beam is None:
+            self._learn(plots.time, azimuth)
+        else:
+            self._rate, latest = beam.rate, max(latest, beam.end_time)
+            self._time, self._azimuth = np.array([beam.time]), np.array([beam.azimuth])
         end = latest
         if self._full_turns and self._rate:
             reach = {'start': 1.0, 'middle': 0.5, 'end': 0.0}[self._reference]
-            end = max(latest, plots.stamp + reach * min(self._interval, TWO_PI / abs(self._rate)))
+            period = TWO_PI / abs(self._rate)
+            length = period if self._collects else min(self._interval, period)
+            end = max(latest, plots.stamp + reach * length)
         return self._sweep(plots.time, azimuth, start, end)
 
     def _sweep(self, time: Floats, azimuth: Floats, start: float, end: float) -> Sweep:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Set
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ from msg_adapters.trails import Trails
 from radar_tracker.config import MountConfig, RadarTrackerConfig
 from radar_tracker.memory import recall, remember
 from radar_tracker.mounting import in_sensor_axes
+from radar_tracker.sector_clock import SectorClock
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Floats, Plots, Tracks
 from tracking_core.platform import Platform, pose_at
@@ -58,6 +60,7 @@ class RadarInstrument:
         self, config: RadarTrackerConfig, node_config: NodeConfig, types: MessageTypes
     ) -> None:
         self.tracker = RadarTracker(config)
+        self._sectors = SectorClock(config.scan)
         self._overrides, self._types = vars(node_config.fields), types
         self._trails = Trails.empty(node_config.markers.history)
 
@@ -87,9 +90,15 @@ class RadarInstrument:
     def track(self, plots: Plots, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the plots of one message."""
         sensor = self.tracker.config.sensor
-        if frame.tells_true(sensor.azimuth_reference):
-            plots = in_sensor_axes(plots, pose_at(platform, plots.time), sensor.mount)
-        return self.tracker.track(plots, platform)
+
+        def relative(plots: Plots) -> Plots:
+            if not frame.tells_true(sensor.azimuth_reference):
+                return plots
+            return in_sensor_axes(plots, pose_at(platform, plots.time), sensor.mount)
+
+        times = self._sectors.times(relative(plots))
+        plots = relative(replace(plots, time=times))
+        return self.tracker.track(plots, platform, self._sectors.beam)
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table."""

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from radar_tracker.antenna import Antenna, TWO_PI
+from radar_tracker.antenna import Antenna, Beam, TWO_PI
 from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import to_polar
@@ -39,8 +39,10 @@ class RadarTracker:
         self._antenna = Antenna(
             scan.period,
             full_turns=scan.assembly != 'sector',
-            time_reference=scan.time_reference,
+            # A collected turn has the stamp of its first sector, and begins about there.
+            time_reference='start' if scan.assembly == 'rotation' else scan.time_reference,
             stares=scan.assembly == 'snapshot',
+            collects=scan.assembly == 'rotation',
         )
         self._latest_stamp = np.nan  # of the messages that are collected to turns
         self._radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
@@ -111,7 +113,9 @@ class RadarTracker:
         """Delete one track; return whether there was one with this id."""
         return self._tracker.cancel(track_id)
 
-    def track(self, plots: Plots, platform: Platform | None = None) -> Tracks:
+    def track(
+        self, plots: Plots, platform: Platform | None = None, beam: Beam | None = None
+    ) -> Tracks:
         """
         Follow all contacts through one message.
 
@@ -121,6 +125,8 @@ class RadarTracker:
             One message: a full turn, a sector, or a look everywhere at once.
         platform : Platform, optional
             Own ship in the tracking frame; without it the sensor stands at the origin.
+        beam : Beam, optional
+            Where the antenna points at the end of the message, if that is known.
 
         Returns
         -------
@@ -139,7 +145,7 @@ class RadarTracker:
             return self.tracks
         pose = pose_at(platform, collected.time)
         self._allow_for(PlatformDoubt.of(pose))
-        sweep = self._antenna.follow(collected, self._azimuth(collected))
+        sweep = self._antenna.follow(collected, self._azimuth(collected), beam)
         ends = pose_at(platform, np.array([sweep.start_time, sweep.end_time]))
         coverage = self._last_coverage = coverage_of(sweep, ends, self.config.sensor)
         volume = self._radar.plot_space_volume(self._farthest or self.config.sensor.range_max)

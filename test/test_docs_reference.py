@@ -165,6 +165,7 @@ def lines_of_sessions():
     use(message(), *(message(500.0 + step) for step in range(4)))
     use(message(), odometry=[own_ship(90.0)])
     use(message(), tracker={'sensor.azimuth_convention': 'compass'}, odometry=[own_ship(99.0)])
+    use(message(), tracker={'scan.assembly': 'sector'})
     leap = [own_ship(90.0), own_ship(90.5), *(own_ship(91.0 + step, x=1e3) for step in range(3))]
     use(odometry=leap)
     return said

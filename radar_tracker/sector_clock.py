@@ -1,0 +1,173 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+When was each plot seen, if only its message has a time?
+
+Sectors follow each other as the antenna turns, so their stamps and the azimuths of their plots
+tell its rate; the azimuth of a plot then tells when the antenna pointed there. Of full turns only
+the middle is known, and that only where the user says that they are turns, with `scan.period`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from msg_adapters.bad_message import BadMessage
+from radar_tracker.antenna import Beam, TWO_PI
+from radar_tracker.config import ScanConfig
+from tracking_core.batches import Floats, Plots
+from tracking_core.linalg import wrap_angle
+
+SECTORS = np.arange(3, 97)  # of a turn; of two nobody can tell which way the antenna turns
+_FEWEST, _SAMPLES = 12, 1000  # sectors with plots from which a turn is learnt
+_RARELY = 4  # one try in so many sectors with plots
+_TURNS, _PART = 3.0, 0.1  # of the antenna that must be seen; and for so many sectors at least
+_PERIODS = (0.4, 60.0)  # of antennas [s]
+_STEPS = 15  # between stamps that are remembered
+_ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
+_FIT = 0.95  # of the mean resultant length that evenly filled sectors have
+_SURE = 0.1  # so much better than the same turn the other way round
+_MEMORY, _TOO_STRANGE = 50.0, 0.3  # messages, and share of plots far from where they should be
+
+
+class SectorClock:
+    """
+    Tells the times of plots in sectors that come without them.
+
+    Parameters
+    ----------
+    scan : ScanConfig
+        What messages are; snapshots are left as they are.
+
+    """
+
+    def __init__(self, scan: ScanConfig) -> None:
+        self._period = scan.period
+        self._reach = {'start': 0.5, 'middle': 0.0, 'end': -0.5}[scan.time_reference]
+        self._is_whole = scan.assembly == 'message' and scan.period > 0.0
+        # As long as no plot has a time of its own.
+        self._is_needed = self._is_whole or scan.assembly in ('sector', 'rotation')
+        self._last = np.nan  # stamp
+        self._forget()
+
+    def _forget(self) -> None:
+        self._steps = np.zeros(0)  # from stamp to stamp [s]
+        self._stamp, self._azimuth = np.zeros(0), np.zeros(0)  # of the plots while learning
+        self._turn = 0.0  # of the antenna from one sector to the next [rad], 0: not known
+        self._middle = 0.0  # of the last sector [rad]
+        self._tries = 0
+        self._strange = 0.0  # share of the last plots that were far from their sector
+
+    @property
+    def beam(self) -> Beam | None:
+        """Where the antenna points, None if plots tell their own times."""
+        if not (self._is_needed and self._turn):
+            return None
+        step = self._step
+        middle = self._last + self._reach * step
+        return Beam(middle, self._middle, self._turn / step, middle + 0.5 * step)
+
+    def times(self, plots: Plots) -> Floats:
+        """
+        Return when the antenna pointed at each plot (M,) [s].
+
+        Parameters
+        ----------
+        plots : Plots
+            Of one message, in sensor axes; those with times of their own keep them.
+
+        Raises
+        ------
+        BadMessage
+            If how the antenna turns is not known yet.
+
+        """
+        self._is_needed &= bool((plots.time == plots.stamp).all())
+        if not self._is_needed:
+            return plots.time
+        if self._is_whole:
+            return plots.time + self._reach * self._period
+        self._follow(plots.stamp)
+        x, y, _ = plots.position.T
+        azimuth = np.where(np.isnan(plots.azimuth), np.arctan2(y, x), plots.azimuth)
+        if not self._turn:
+            self._learn(plots.stamp, azimuth)
+        if self._turn:
+            return plots.stamp + (self._reach + self._place(azimuth)) * self._step
+        if len(plots):
+            raise BadMessage(
+                'rotation not known',
+                'sectors tell no times of their plots, and how the antenna turns is not known '
+                'yet: give each plot a time, or set scan.period',
+            )
+        return plots.time
+
+    @property
+    def _step(self) -> float:
+        """How long sectors last [s]; 0 before the second one."""
+        return float(np.median(self._steps)) if len(self._steps) else 0.0
+
+    def _follow(self, stamp: float) -> None:
+        """Turn to the sector with this stamp."""
+        if not abs(stamp - self._last) < _PERIODS[1]:
+            self._forget()
+        elif stamp > self._last:
+            self._steps = np.append(self._steps, stamp - self._last)[-_STEPS:]
+        if self._turn:
+            self._middle += self._turn * round((stamp - self._last) / self._step)
+        self._last = stamp
+
+    def _place(self, azimuth: Floats) -> Floats:
+        """
+        Return where in its sector the antenna saw each plot, -0.5 to 0.5 from first to last.
+
+        The middle of the sector is moved so that all fit in.
+        """
+        place = wrap_angle(azimuth - self._middle) / self._turn
+        is_near = np.abs(place) < 1.0
+        if is_near.any():
+            most, least = place[is_near].max(), place[is_near].min()
+            move = max(most - 0.5, 0.0) + min(least + 0.5, 0.0)
+            self._middle += move * self._turn
+            place = place - move
+        if len(place):
+            self._strange += (1.0 - is_near.mean() - self._strange) / _MEMORY
+            if self._strange > _TOO_STRANGE:
+                self._forget()
+        return np.clip(place, -0.5, 0.5)
+
+    def _learn(self, stamp: float, azimuth: Floats) -> None:
+        """Find the turn at which plots lie in the sectors that their stamps tell."""
+        one = azimuth[len(azimuth) // 2 :][:1]  # of each sector, so that many reach back far
+        self._stamp = np.append(self._stamp, np.full(len(one), stamp))[-_SAMPLES:]
+        self._azimuth = np.append(self._azimuth, one)[-_SAMPLES:]
+        self._tries += len(one)
+        step = self._step
+        if len(self._azimuth) < _FEWEST or not step or self._tries % _RARELY:
+            return
+        alike = np.abs(np.exp(1j * self._azimuth).mean())
+        if alike > _ONE_DIRECTION and not self._period:
+            return  # a lone contact fits many rates
+        count = np.rint((self._stamp - stamp) / step)
+        self._turn = self._best_turn(count, step)
+        if self._turn:
+            beam = np.exp(1j * (self._azimuth - self._turn * count))
+            self._middle = float(np.angle(beam.sum()))
+
+    def _best_turn(self, count: Floats, step: float) -> float:
+        """Return the turn from sector to sector that fits best [rad], 0 if none does."""
+        sectors = np.array([round(self._period / step)]) if self._period else SECTORS
+        sectors = sectors[(sectors * step > _PERIODS[0]) & (sectors * step < _PERIODS[1])]
+        if not len(sectors):
+            return 0.0
+        turns = np.stack([TWO_PI / sectors, -TWO_PI / sectors])
+        beam = self._azimuth - turns[..., None] * count
+        fit = np.abs(np.exp(1j * beam).mean(axis=-1)) / np.sinc(1.0 / sectors)
+        way, best = np.unravel_index(np.argmax(fit), fit.shape)
+        least = _TURNS if self._period else max(_TURNS, _PART * sectors[best])
+        if fit[way, best] < _FIT or np.ptp(count) < least * sectors[best]:
+            return 0.0
+        if fit[way, best] > fit[1 - way, best] + _SURE:
+            return float(turns[way, best])
+        # Both ways fit few contacts; most antennas turn clockwise, and a sector is short.
+        return float(turns[1, best]) if self._period else 0.0

@@ -1,0 +1,150 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Plots without times of their own: sectors tell them, by how they follow each other."""
+
+from dataclasses import replace
+import logging
+
+import numpy as np
+import pytest
+
+from msg_adapters.bad_message import BadMessage
+from msg_adapters.table import from_columns, to_columns
+from radar_tracker.config import RadarTrackerConfig, ScanConfig
+from radar_tracker.node_config import radar_node_config
+from radar_tracker.sector_clock import SectorClock
+from radar_tracker.session import radar_session
+from studies.scenes import messages
+from tracking_core.batches import Plots
+from tracking_core.config import with_values
+from tracking_tools.scenarios import Contact, Legs, Radar, Scenario
+
+PERIOD, EPOCH = 2.5, 1_700_000_000.0
+RADAR = Radar(
+    period=PERIOD, rotation='clockwise', range_sd=20.0, azimuth_sd=0.003,
+    detection_probability=0.95, range_limits=(500.0, 20_000.0),
+)  # fmt: skip
+FEW = tuple(
+    Contact(k + 1, Legs((r * np.cos(a), r * np.sin(a), 0.0), 8.0, 1.3 * k))
+    for k, (a, r) in enumerate([(0.3, 4e3), (2.0, 6e3), (-2.2, 3e3), (-0.9, 5e3)])
+)
+
+
+def sensed(radar, sectors, turns, contacts=FEW):
+    """Return the plots of each sector, with the times that they have."""
+    scene = Scenario(radar, contacts, turns * radar.period)
+    found = [plots for plots, _ in messages(scene, np.random.default_rng(3), sectors)]
+    return [replace(p, time=p.time + EPOCH, stamp=p.stamp + EPOCH) for p in found]
+
+
+def untimed(plots, ahead=0.0):
+    """Return plots as if only their message had a time, so far after its beginning [s]."""
+    stamp = plots.stamp + ahead
+    return replace(plots, time=np.full(len(plots), stamp), stamp=stamp)
+
+
+def told(clock, plots):
+    """Return the times of the plots, None as long as nobody knows."""
+    try:
+        return clock.times(plots)
+    except BadMessage:
+        return None
+
+
+@pytest.mark.parametrize('rotation', ['clockwise', 'anticlockwise'])
+@pytest.mark.parametrize('sectors', [4, 8, 32])
+@pytest.mark.parametrize('period', [0.0, PERIOD], ids=['learnt', 'told'])
+def test_times_are_those_of_the_antenna(rotation, sectors, period):
+    """In false plots from everywhere: after some turns to a hundredth of a turn."""
+    radar = replace(RADAR, rotation=rotation, clutter_per_turn=30.0)
+    clock, off = SectorClock(ScanConfig(assembly='sector', period=period)), []
+    for number, plots in enumerate(sensed(radar, sectors, 30)):
+        times = told(clock, untimed(plots))
+        if number >= 10 * sectors:
+            off.append(times - plots.time)
+    assert np.abs(np.concatenate(off)).max() < 0.01 * PERIOD
+    sense = 1.0 if rotation == 'anticlockwise' else -1.0
+    assert clock.beam.rate == pytest.approx(sense * 2.0 * np.pi / PERIOD, rel=1e-6)
+
+
+@pytest.mark.parametrize(('reference', 'share'), [('start', 0.0), ('middle', 0.5), ('end', 1.0)])
+def test_stamp_means_what_the_user_says(reference, share):
+    """The times are the same, whatever moment of a sector its stamp is."""
+    clock = SectorClock(ScanConfig(assembly='sector', time_reference=reference))
+    radar, ahead = replace(RADAR, clutter_per_turn=30.0), share * PERIOD / 8
+    for plots in sensed(radar, 8, 20):
+        times = told(clock, untimed(plots, ahead))
+    np.testing.assert_allclose(times, plots.time, atol=0.01 * PERIOD)
+
+
+def test_lone_contact_needs_a_period_and_is_taken_to_be_turned_to_clockwise():
+    """It fits many rates; a sector is short, so that the sense matters little."""
+    found = [untimed(p) for p in sensed(RADAR, 8, 20, FEW[:1])]
+    clock = SectorClock(ScanConfig(assembly='sector'))
+    assert all(told(clock, plots) is None for plots in found if len(plots))
+    clock = SectorClock(ScanConfig(assembly='sector', period=PERIOD))
+    assert told(clock, found[0]) is None or len(found[0]) == 0
+    for plots in found:
+        told(clock, plots)
+    assert clock.beam.rate == pytest.approx(-2.0 * np.pi / PERIOD, rel=1e-6)
+
+
+def test_antenna_that_turns_otherwise_is_learnt_anew():
+    """From 8 to 12 sectors a turn: the old times are given up, not used for ever."""
+    clock = SectorClock(ScanConfig(assembly='sector'))
+    radar = replace(RADAR, clutter_per_turn=30.0)
+    for plots in sensed(radar, 8, 10):
+        told(clock, untimed(plots))
+    later = sensed(replace(radar, period=1.5 * PERIOD), 12, 30)
+    for plots in later:
+        shifted = replace(plots, time=plots.time + 30.0, stamp=plots.stamp + 30.0)
+        times = told(clock, untimed(shifted))
+    np.testing.assert_allclose(times, shifted.time, atol=0.01 * PERIOD)
+
+
+@pytest.mark.parametrize('assembly', ['sector', 'rotation', 'message', 'snapshot'])
+def test_plots_with_times_keep_them(assembly):
+    """Nobody knows better than the driver."""
+    clock = SectorClock(ScanConfig(assembly=assembly, period=PERIOD))
+    for plots in sensed(RADAR, 8, 6):
+        np.testing.assert_array_equal(clock.times(plots), plots.time)
+        if len(plots):
+            assert clock.beam is None
+
+
+def test_full_turns_without_times_are_taken_at_their_middle_if_the_period_is_told():
+    """Without a period a message may be a look everywhere at once, and stays as it is."""
+    plots = replace(Plots.polar(np.full(2, 7.0), np.ones(2), np.ones(2)), stamp=7.0)
+    for values, ahead in (
+        ({'period': 4.0}, 2.0), ({'period': 4.0, 'time_reference': 'middle'}, 0.0),
+        ({'period': 4.0, 'time_reference': 'end'}, -2.0), ({}, 0.0),
+    ):  # fmt: skip
+        np.testing.assert_allclose(SectorClock(ScanConfig(**values)).times(plots), 7.0 + ahead)
+
+
+@pytest.mark.parametrize('assembly', ['sector', 'rotation'])
+@pytest.mark.parametrize('has_times', [True, False], ids=['timed', 'untimed'])
+def test_few_contacts_are_held_in_sectors(assembly, has_times):
+    """The same ids to the end, also where a contact lies on a cut, and no others."""
+    values = {
+        'sensor.range_sd': 20.0, 'sensor.azimuth_sd': 0.003, 'sensor.range_max': 2e4,
+        'motion.horizontal.acceleration_sd': [0.05, 0.5], 'initiation.speed_max': 30.0,
+        'scan.assembly': assembly,
+    }  # fmt: skip
+    config = with_values(RadarTrackerConfig(), values)
+    types = pytest.importorskip('msg_adapters.message_types').rosbags_types()
+    radar = radar_session(config, radar_node_config(), types, logging.getLogger('sectors'))
+    ids, held = set(), []
+    for number, plots in enumerate(sensed(RADAR, 8, 80)):
+        columns = {'range': plots.range, 'azimuth': plots.azimuth}
+        if has_times:
+            columns['time'] = plots.time - plots.stamp
+        msg = from_columns(columns, plots.stamp, 'radar', types)
+        table = radar.plots(msg, 0.0)
+        if table is None or number < 8 * 20:
+            continue
+        rows = to_columns(table, 100)
+        ids |= set(rows['id'][rows['status'] == 1].tolist())
+        held.append(int((rows['status'] == 1).sum()))
+    assert len(ids) == len(FEW)
+    assert np.mean(held) > 0.98 * len(FEW)
