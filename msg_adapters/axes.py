@@ -1,11 +1,11 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""What looks wrong with the axes that a sensor's azimuths are told in?"""
+"""What looks wrong with how a sensor on a ship tells its plots?"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import Any, Protocol
 
 from msg_adapters.frames import TrackingFrame
 
@@ -34,8 +34,29 @@ class Axes(Protocol):
         """Return how it is turned."""
 
 
-def check_axes(sensor: Axes, frame: TrackingFrame, warn: Callable[[str, str], object]) -> None:
-    """Warn, with reason and text, of azimuths that would count from a ship's port beam."""
+Warn = Callable[[str, str], object]  # with a reason and a text
+
+
+def check_places(sensor: Axes, scan: Any, frame: TrackingFrame, warn: Warn) -> None:
+    """Warn of places in the tracking frame that a mount moves, or that an antenna cannot have."""
+    if not frame.has_places:
+        return
+    if sensor.mount != type(sensor.mount)():
+        warn(
+            'mount',
+            f"plots are places in '{frame.name}', and sensor.mount moves them: they are where "
+            'they are, set no mount',
+        )
+    if scan.assembly != 'snapshot':
+        warn(
+            'places',
+            f"plots are places in '{frame.name}', from a ship that moves: from where the antenna "
+            'looked is not known, set scan.assembly to snapshot',
+        )
+
+
+def check_axes(sensor: Axes, frame: TrackingFrame, warn: Warn) -> None:
+    """Warn of azimuths that would count from a ship's port beam."""
     if (
         frame.is_from_ship
         and sensor.azimuth_convention == 'compass'

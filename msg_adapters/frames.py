@@ -72,6 +72,11 @@ class TrackingFrame:
         """Whether plots are told in the axes of the tracking frame itself."""
         return self.sensor == self.name
 
+    @property
+    def has_places(self) -> bool:
+        """Whether plots are places in the tracking frame, from a ship that moves in it."""
+        return self.has_ship and self.is_true and not self.polar
+
     def tells_true(self, reference: str) -> bool:
         """Return whether own ship's heading is in the directions, by `azimuth_reference` too."""
         return reference == 'tracking_frame' or (self.is_true and self.needs_platform)

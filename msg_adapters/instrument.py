@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Set
 from typing import Any, Protocol
 
+from msg_adapters.axes import Warn
 from msg_adapters.bodies import Bodies
 from msg_adapters.frames import TrackingFrame
 from msg_adapters.reading import Reading
@@ -82,6 +83,9 @@ class Instrument(Protocol):
             If it cannot be used.
 
         """
+
+    def check(self, frame: TrackingFrame, warn: Warn) -> None:
+        """Warn of what looks wrong with how plots are told in this frame."""
 
     def track(self, plots: Any, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the plots of one message."""

@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 import signal
 import sys
-import time
 from typing import Any
 
 import rclpy
@@ -18,7 +17,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.time import Time
-from rclpy.utilities import ok, try_shutdown
+from rclpy.utilities import ok, remove_ros_args, try_shutdown
 
 from msg_adapters.parameter_blocks import foreign_files, missing_files
 from msg_adapters.parameters import BadParameter
@@ -82,11 +81,20 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
 
 def _init(args: Sequence[str] | None) -> str:
     """Begin to speak ROS; return why that cannot be, '' if it can."""
-    for path in missing_files(sys.argv if args is None else args):
+    given = list(sys.argv if args is None else args)
+    for path in missing_files(given):
         return f'there is no parameter file {path}'
     try:
-        rclpy.init(args=None if args is None else list(args))
-    except RuntimeError as error:  # arguments that are none
+        strange = remove_ros_args(given)[args is None :]
+    except RuntimeError as error:
+        return (
+            f'{error}: ROS knows no such argument; remap with -r FROM:=TO, set with -p NAME:=VALUE'
+        )
+    if strange:
+        return f'unknown arguments {" ".join(strange)}: those of ROS come after --ros-args'
+    try:
+        rclpy.init(args=None if args is None else given)
+    except RuntimeError as error:
         return str(error)
     return ''
 
@@ -150,14 +158,6 @@ def on_clock_going_back(node: Any, callback: Callable[[], None]) -> Any:
         JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1)),
         post_callback=lambda jump: callback() if jump.delta.nanoseconds < 0 else None,
     )
-
-
-def arrival_time(node: Any) -> float:
-    """Return the time that tells how long an input was silent: simulated, or steady [s]."""
-    clock = node.get_clock()
-    if clock.ros_time_is_active:
-        return float(clock.now().nanoseconds / NANOSECONDS)
-    return time.monotonic()
 
 
 def to_time(time: float) -> Time:

@@ -79,6 +79,12 @@ class NodeParameters:
         for name, meant in self.unknown.items():
             self.logger.warning(f'there is no parameter {name}, it has no effect{meant}')
 
+    def tell_idle_overrides(self, node: Any) -> None:
+        """Say which overrides of quality of service are for topics that the node does not open."""
+        for name in filter(is_override, overrides(node)):
+            if not node.has_parameter(name):
+                self.logger.warning(f'there is no topic for {name}, it has no effect')
+
     def _check(self, changes: list[Any]) -> SetParametersResult:
         """Say whether the node could run with these changes together."""
         try:

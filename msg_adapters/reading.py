@@ -13,7 +13,7 @@ import numpy as np
 from msg_adapters.angles import in_radians
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import find_fields, Names
-from msg_adapters.kinds.menu import columns_of
+from msg_adapters.kinds.menu import columns_of, tells_unit
 from msg_adapters.message_types import NANOSECONDS, stamp_of
 from msg_adapters.row_checks import OUT_OF_RANGE
 from msg_adapters.table import Columns
@@ -72,7 +72,7 @@ def read_fields(
     mapping = find_fields(columns, names, overrides)
     with np.errstate(invalid='ignore'):  # a signalling NaN becomes just a NaN
         values = {ours: _numbers(columns, theirs) for ours, theirs in mapping.items()}
-        values = in_radians(values, angle_unit)
+        values = in_radians(values, 'rad' if tells_unit(msg) else angle_unit)
     stamp = stamp_of(msg)
     rows = len(next(iter(columns.values()))) if columns else msg.width * msg.height
     offset = _offset(values, columns, mapping, stamp, rows)

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from msg_adapters.axes import check_axes
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.diagnostics import InputCount
 from msg_adapters.frames import TrackingFrame
@@ -122,7 +121,8 @@ class Session:
         reading = self.instrument.read(msg, self.mapping)
         plots, history = reading.plots, self._follower.history
         self.frame.check_plots(plots.frame, reading.is_polar)
-        check_axes(self.instrument.tracker.config.sensor, self.frame, self.ledger.warn)
+        if len(plots):
+            self.instrument.check(self.frame, self.ledger.warn)
         platform = self.whereabouts.of(plots, self.frame) if self.frame.needs_platform else None
         if history.takes(plots.stamp) and not self.guard.is_going_back:
             self._follower.insert(plots, platform, self.frame)

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from msg_adapters.axes import check_axes, check_places, Warn
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.bodies import Bodies
 from msg_adapters.frames import TrackingFrame
@@ -86,6 +87,12 @@ class RadarInstrument:
                 f'now {sorted(reading.mapping.values())}: polar and Cartesian plots do not mix',
             )
         return reading
+
+    def check(self, frame: TrackingFrame, warn: Warn) -> None:
+        """Warn of what looks wrong with how plots are told in this frame."""
+        config = self.tracker.config
+        check_axes(config.sensor, frame, warn)
+        check_places(config.sensor, config.scan, frame, warn)
 
     def track(self, plots: Plots, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the plots of one message."""

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from msg_adapters.axes import check_axes, Warn
 from msg_adapters.bearing_tracks import from_bearing_tracks, located_bodies
 from msg_adapters.bearings import to_bearings
 from msg_adapters.bodies import Bodies
@@ -72,6 +73,10 @@ class SonarInstrument:
         """Return the marks of a message."""
         config = self.tracker.config
         return to_bearings(msg, config.sensor, config.max_plots, self._overrides)
+
+    def check(self, frame: TrackingFrame, warn: Warn) -> None:
+        """Warn of what looks wrong with how marks are told in this frame."""
+        check_axes(self.tracker.config.sensor, frame, warn)
 
     def track(self, plots: Bearings, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the marks of one cycle."""

@@ -166,6 +166,10 @@ def lines_of_sessions():
     use(message(), odometry=[own_ship(90.0)])
     use(message(), tracker={'sensor.azimuth_convention': 'compass'}, odometry=[own_ship(99.0)])
     use(message(), tracker={'scan.assembly': 'sector'})
+    places = [
+        from_columns({'x': np.ones(1), 'y': np.ones(1)}, 100.0 + k, 'odom', TYPES) for k in (0, 4)
+    ]
+    use(*places, tracker={'sensor.mount.x': 3.0}, odometry=[own_ship(99.0, 'odom')])
     leap = [own_ship(90.0), own_ship(90.5), *(own_ship(91.0 + step, x=1e3) for step in range(3))]
     use(odometry=leap)
     return said

@@ -20,7 +20,8 @@ def angle_unit() -> Any:
     """Return the dataclass field that says in which unit messages have their angles."""
     return parameter(
         'rad', unit='', choices=ANGLE_UNITS,
-        doc='of all angles in the messages, their noise too; parameters and tracks are in rad',
+        doc='of all angles in a PointCloud2, their noise too; other types, parameters and tracks '
+        'are in rad',
     )  # fmt: skip
 
 

@@ -59,6 +59,7 @@ class Summary:
         speed = self.duration / self.wall_time if self.wall_time else 0.0
         lines = [
             f'messages: {self.plots.messages}, used: {self.tables}, plots used: {self.plots.rows}',
+            *([f'used late: {self.plots.late_used} messages'] if self.plots.late_used else []),
             *(f'refused: {n} messages, {why}' for why, n in sorted(self.plots.refused.items())),
             *(f'dropped: {n} plots, {why}' for why, n in sorted(self.plots.dropped.items())),
             f'tracks confirmed: {len(self.confirmed)}',

@@ -75,6 +75,11 @@ def columns_of(msg: Any, max_rows: int) -> Columns:
     return kind.columns(msg)
 
 
+def tells_unit(msg: Any) -> bool:
+    """Return whether the type of a message says that its angles are radians, or quaternions."""
+    return _name_of(type(msg)) != POINT_CLOUD
+
+
 def check_type(name: str) -> str:
     """Return 'package/Type' for that or 'package/msg/Type'; ValueError if it holds no plots."""
     short = name.replace('/msg/', '/')

@@ -89,3 +89,11 @@ def _take_waiting(subscription: Any) -> list[tuple[Any, Any]]:
 def age(info: Any) -> float:
     """Return how long ago a message came [s]."""
     return float((time.time_ns() - info['received_timestamp']) / NANOSECONDS)
+
+
+def arrival_time(node: Any) -> float:
+    """Return the time that tells how long an input was silent: simulated, or steady [s]."""
+    clock = node.get_clock()
+    if clock.ros_time_is_active:
+        return float(clock.now().nanoseconds / NANOSECONDS)
+    return time.monotonic()

@@ -77,6 +77,7 @@ class TrackerNode(LifecycleNode):
         """Make the tracker and open all topics."""
         try:
             self._live = LiveTopics(self, self._make_session, self._settings.configs)
+            self._settings.tell_idle_overrides(self)
         except (ValueError, RuntimeError) as error:  # what fits alone but not together, a bad QoS
             if self.context.ok():  # else it is just a signal that came meanwhile
                 self._settings.logger.fatal(f'cannot be configured: {error}')

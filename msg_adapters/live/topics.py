@@ -23,11 +23,11 @@ from msg_adapters.live.bodies import BodyTopics
 from msg_adapters.live.clock_check import ClockCheck
 from msg_adapters.live.display import Display
 from msg_adapters.live.health import Health, QUIET
-from msg_adapters.live.inputs import age, Inputs
+from msg_adapters.live.inputs import age, arrival_time, Inputs
 from msg_adapters.live.openings import Openings
 from msg_adapters.live.waiting import Waiting
 from msg_adapters.message_types import rclpy_types
-from msg_adapters.node import arrival_time, explain_silence
+from msg_adapters.node import explain_silence
 from msg_adapters.session import Session
 from msg_adapters.snapshots.keeper import Keeper
 

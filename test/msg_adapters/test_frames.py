@@ -4,10 +4,10 @@
 
 import pytest
 
-from msg_adapters.axes import check_axes
+from msg_adapters.axes import check_axes, check_places
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.frames import TrackingFrame
-from radar_tracker.config import MountConfig, SensorConfig
+from radar_tracker.config import MountConfig, ScanConfig, SensorConfig
 
 
 @pytest.fixture
@@ -65,6 +65,23 @@ def test_compass_azimuths_in_the_axes_of_a_ship_are_doubted(said, sensor, doubts
     frame.check_plots('radar', polar=True)
     check_axes(sensor, frame, lambda _, text: said.append(text))
     assert ("y axis of 'radar'" in said[-1]) == doubts
+
+
+@pytest.mark.parametrize(('mount', 'assembly', 'words'), [
+    (MountConfig(), 'snapshot', []),
+    (MountConfig(x=3.0), 'snapshot', ['sensor.mount moves them']),
+    (MountConfig(), 'message', ['set scan.assembly to snapshot']),
+])  # fmt: skip
+def test_places_from_a_ship_that_moves_want_no_mount_and_no_antenna(said, mount, assembly, words):
+    """Both are parameters that such a sensor has for other reasons."""
+    frame = TrackingFrame('odom', False, said.append)
+    frame.check_plots('odom')
+    sensor, scan = SensorConfig(mount=mount), ScanConfig(assembly=assembly)
+    check_places(sensor, scan, frame, pytest.fail)  # without own ship it stands still
+    frame.has_ship = True
+    check_places(sensor, scan, frame, lambda _, text: said.append(text))
+    assert len(said) == len(words)
+    assert all(word in text for word, text in zip(words, said, strict=True))
 
 
 def test_strange_frame_is_refused_with_both_names_and_ways_out(said):

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plots and bearings in other messages than PointCloud2, made of the classes that ROS has."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -157,6 +159,8 @@ def test_pose_with_covariance_is_a_position_or_a_bearing(ros, variance, sd):
     marks = to_bearings(msg, SONAR, 9).plots
     np.testing.assert_allclose(marks.bearing, [-2.5])
     np.testing.assert_allclose(marks.bearing_sd, [sd])
+    in_degrees = to_bearings(msg, replace(SONAR, angle_unit='deg'), 9).plots
+    np.testing.assert_allclose(in_degrees.bearing, [-2.5])  # a quaternion has no unit
 
 
 def test_detections_are_where_the_best_hypothesis_says(ros):

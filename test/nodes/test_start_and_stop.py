@@ -2,9 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """A node starts with what it can use, and refuses the rest by name."""
 
+from pathlib import Path
+import sys
+
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, SetParameters
+
+from tracking_tools.testing import NodeProcess
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(params=['radar', 'sonar'])
@@ -81,6 +88,30 @@ def test_value_that_cannot_be_ends_the_node_with_its_name(start_node, value, wor
     assert node.wait() == 1
     assert words in node.log
     assert len(node.log.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ('words', 'said'),
+    [
+        (['-p', 'sensor.range_sd:=1.0'], 'those of ROS come after --ros-args'),
+        (['--ros-args', 'plots:=/x'], 'remap with -r FROM:=TO'),
+    ],
+)
+@radar_only
+def test_slip_on_the_command_line_ends_the_node(sensor, ros_domain_id, tmp_path, words, said):
+    """It would run with other parameters or topics than were meant."""
+    command = [sys.executable, '-m', f'{sensor.node}.node', *words]
+    with NodeProcess(command, ros_domain_id, tmp_path / 'log', folder=ROOT) as node:
+        assert node.wait() == 1
+        assert node.log.startswith('cannot start: ')
+        assert said in node.log
+
+
+@radar_only
+def test_override_for_a_topic_that_nobody_opens_is_told(start_node):
+    """A slip in a topic's name is as one in a parameter's."""
+    node = start_node('qos_overrides./plotz.subscription.depth:=9')
+    node.wait_for_line('there is no topic for qos_overrides./plotz.subscription.depth')
 
 
 @radar_only
