@@ -84,6 +84,9 @@ class Instrument(Protocol):
 
         """
 
+    def moments(self, plots: Any) -> Floats:
+        """Return the times (K,) [s] at which own ship must be known for these plots."""
+
     def check(self, frame: TrackingFrame, warn: Warn) -> None:
         """Warn of what looks wrong with how plots are told in this frame."""
 

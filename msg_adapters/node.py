@@ -26,6 +26,7 @@ STOPS = (signal.SIGINT, signal.SIGTERM)
 LOOK = 1.0  # between two looks at whether the context has ended [s]
 DEPTH = 50  # messages of an input that may wait
 NANOSECONDS = 1_000_000_000
+USAGE = ': no argument of ROS; remap with -r FROM:=TO, set with -p NAME:=VALUE'
 
 
 class NotStarted(RuntimeError):  # noqa: N818 (a state rather than an error)
@@ -87,9 +88,8 @@ def _init(args: Sequence[str] | None) -> str:
     try:
         strange = remove_ros_args(given)[args is None :]
     except RuntimeError as error:
-        return (
-            f'{error}: ROS knows no such argument; remap with -r FROM:=TO, set with -p NAME:=VALUE'
-        )
+        is_unknown = type(error).__name__ == 'UnknownROSArgsError'  # which rclpy does not export
+        return f'{error}{USAGE if is_unknown else ""}'
     if strange:
         return f'unknown arguments {" ".join(strange)}: those of ROS come after --ros-args'
     try:

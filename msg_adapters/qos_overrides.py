@@ -8,7 +8,7 @@ from typing import Any
 
 PREFIX = 'qos_overrides.'
 CHOICES = {
-    'reliability': ('reliable', 'best_effort', 'system_default'),
+    'reliability': ('reliable', 'best_effort', 'system_default', 'best_available'),
     'history': ('keep_last', 'keep_all', 'system_default'),
 }
 DEPTHS = (1, 100_000)
@@ -22,7 +22,7 @@ def is_override(name: str) -> bool:
 def complaint(name: str, value: Any) -> str:
     """Return what is wrong with an override, '' for nothing."""
     policy = name.rpartition('.')[2]
-    if policy in CHOICES and value not in CHOICES[policy]:
+    if policy in CHOICES and str(value).lower() not in CHOICES[policy]:
         return f'{name} must be one of {", ".join(CHOICES[policy])}, got {value!r}'
     if policy == 'depth':
         if not isinstance(value, int) or isinstance(value, bool):

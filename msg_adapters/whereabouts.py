@@ -4,9 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
-
-import numpy as np
+from typing import Protocol
 
 from msg_adapters.frames import TrackingFrame
 from msg_adapters.leap_guard import LeapGuard
@@ -71,9 +69,9 @@ class Whereabouts:
         self.platform = self.platform.add(sample)
         return has_leapt
 
-    def of(self, plots: Any, frame: TrackingFrame) -> Platform:
+    def of(self, times: Floats, frame: TrackingFrame) -> Platform | None:
         """
-        Return a path that covers the times of these plots.
+        Return a path of the sensor's platform that covers these times (K,) [s], if one is needed.
 
         Raises
         ------
@@ -81,9 +79,10 @@ class Whereabouts:
             Where there is none.
 
         """
-        times = np.append(plots.time, plots.stamp)
-        if self.transforms is not None and frame.needs_platform:
-            samples = self.transforms.sensor(plots.frame, frame.name, times)
+        if not frame.needs_platform:
+            return None
+        if self.transforms is not None:
+            samples = self.transforms.sensor(str(frame.sensor), frame.name, times)
             newest = self.platform.time[-1:]
             if (newest - samples.time[0] > self._config.time_jump_threshold).any():
                 self.platform = Platform.empty(self._config.ownship_timeout)

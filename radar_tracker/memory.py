@@ -23,6 +23,7 @@ def remember(tracker: RadarTracker) -> dict[str, Any]:
         'dimensions': radar.dimensions,
         'is_polar': radar.is_polar,
         'antenna': dict(vars(mine['_antenna'])),
+        'sectors': dict(vars(tracker.sectors)),
         'state': tracker.state,
         **{name: mine[name] for name in KEPT},
     }
@@ -39,4 +40,5 @@ def recall(tracker: RadarTracker, memory: dict[str, Any]) -> None:
     check_form(memory, remember(tracker))
     core.state = memory['state']
     vars(vars(tracker)['_antenna']).update(memory['antenna'])
+    vars(tracker.sectors).update(memory['sectors'])
     vars(tracker).update({name: memory[name] for name in KEPT})

@@ -10,6 +10,8 @@ the middle is known, and that only where the user says that they are turns, with
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from msg_adapters.bad_message import BadMessage
@@ -27,6 +29,7 @@ _STEPS = 15  # between stamps that are remembered
 _ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FIT = 0.95  # of the mean resultant length that evenly filled sectors have
 _SURE = 0.1  # so much better than the same turn the other way round
+_CONVINCING = 3  # messages in a row that show that plots have times after all
 _MEMORY, _TOO_STRANGE = 50.0, 0.3  # messages, and share of plots far from where they should be
 
 
@@ -47,6 +50,8 @@ class SectorClock:
         self._is_whole = scan.assembly == 'message' and scan.period > 0.0
         # As long as no plot has a time of its own.
         self._is_needed = self._is_whole or scan.assembly in ('sector', 'rotation')
+        self._odd = 0  # messages in a row that tell times, where others did not
+        self._was_known = False  # how the antenna turns
         self._last = np.nan  # stamp
         self._forget()
 
@@ -82,7 +87,7 @@ class SectorClock:
             If how the antenna turns is not known yet.
 
         """
-        self._is_needed &= bool((plots.time == plots.stamp).all())
+        self._note(bool((plots.time == plots.stamp).all()))
         if not self._is_needed:
             return plots.time
         if self._is_whole:
@@ -94,7 +99,7 @@ class SectorClock:
             self._learn(plots.stamp, azimuth)
         if self._turn:
             return plots.stamp + (self._reach + self._place(azimuth)) * self._step
-        if len(plots):
+        if len(plots) or self._was_known:
             raise BadMessage(
                 'rotation not known',
                 'sectors tell no times of their plots, and how the antenna turns is not known '
@@ -102,10 +107,27 @@ class SectorClock:
             )
         return plots.time
 
+    def span(self, plots: Plots) -> Floats:
+        """Return moments (K,) [s] between which all plots of a message were seen."""
+        told = np.append(plots.time, plots.stamp)
+        length = self._period if self._is_whole else self._step if self._turn else 0.0
+        if not self._is_needed or not length:
+            return told
+        return np.append(told, plots.stamp + (self._reach + np.array([-0.5, 0.5])) * length)
+
+    def _note(self, is_untimed: bool) -> None:
+        """Take note of whether plots tell their times: the first that do, or several in a row."""
+        self._odd = 0 if is_untimed else self._odd + 1
+        if self._odd and (not self._was_known or self._odd > _CONVINCING):
+            self._is_needed = False
+
     @property
     def _step(self) -> float:
-        """How long sectors last [s]; 0 before the second one."""
-        return float(np.median(self._steps)) if len(self._steps) else 0.0
+        """How long sectors last [s], those that were lost aside; 0 before the second one."""
+        if not len(self._steps):
+            return 0.0
+        short = np.quantile(self._steps, 0.2)
+        return float(self._steps[np.abs(self._steps - short) <= 0.3 * short].mean())
 
     def _follow(self, stamp: float) -> None:
         """Turn to the sector with this stamp."""
@@ -114,7 +136,8 @@ class SectorClock:
         elif stamp > self._last:
             self._steps = np.append(self._steps, stamp - self._last)[-_STEPS:]
         if self._turn:
-            self._middle += self._turn * round((stamp - self._last) / self._step)
+            turned = self._turn * round((stamp - self._last) / self._step)
+            self._middle = math.remainder(self._middle + turned, TWO_PI)
         self._last = stamp
 
     def _place(self, azimuth: Floats) -> Floats:
@@ -128,10 +151,10 @@ class SectorClock:
         if is_near.any():
             most, least = place[is_near].max(), place[is_near].min()
             move = max(most - 0.5, 0.0) + min(least + 0.5, 0.0)
-            self._middle += move * self._turn
+            self._middle += float(move) * self._turn
             place = place - move
         if len(place):
-            self._strange += (1.0 - is_near.mean() - self._strange) / _MEMORY
+            self._strange += float(1.0 - is_near.mean() - self._strange) / _MEMORY
             if self._strange > _TOO_STRANGE:
                 self._forget()
         return np.clip(place, -0.5, 0.5)
@@ -151,6 +174,7 @@ class SectorClock:
         count = np.rint((self._stamp - stamp) / step)
         self._turn = self._best_turn(count, step)
         if self._turn:
+            self._was_known = True
             beam = np.exp(1j * (self._azimuth - self._turn * count))
             self._middle = float(np.angle(beam.sum()))
 

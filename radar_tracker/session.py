@@ -26,7 +26,6 @@ from msg_adapters.trails import Trails
 from radar_tracker.config import MountConfig, RadarTrackerConfig
 from radar_tracker.memory import recall, remember
 from radar_tracker.mounting import in_sensor_axes
-from radar_tracker.sector_clock import SectorClock
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Floats, Plots, Tracks
 from tracking_core.platform import Platform, pose_at
@@ -61,7 +60,6 @@ class RadarInstrument:
         self, config: RadarTrackerConfig, node_config: NodeConfig, types: MessageTypes
     ) -> None:
         self.tracker = RadarTracker(config)
-        self._sectors = SectorClock(config.scan)
         self._overrides, self._types = vars(node_config.fields), types
         self._trails = Trails.empty(node_config.markers.history)
 
@@ -88,6 +86,10 @@ class RadarInstrument:
             )
         return reading
 
+    def moments(self, plots: Plots) -> Floats:
+        """Return the times (K,) [s] at which own ship must be known."""
+        return self.tracker.sectors.span(plots)
+
     def check(self, frame: TrackingFrame, warn: Warn) -> None:
         """Warn of what looks wrong with how plots are told in this frame."""
         config = self.tracker.config
@@ -103,9 +105,11 @@ class RadarInstrument:
                 return plots
             return in_sensor_axes(plots, pose_at(platform, plots.time), sensor.mount)
 
-        times = self._sectors.times(relative(plots))
-        plots = relative(replace(plots, time=times))
-        return self.tracker.track(plots, platform, self._sectors.beam)
+        seen, sectors = relative(plots), self.tracker.sectors
+        times = sectors.times(seen)
+        if times is not seen.time:
+            seen = relative(replace(plots, time=times))
+        return self.tracker.track(seen, platform, sectors.beam)
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table."""

@@ -15,6 +15,7 @@ from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import to_polar
 from radar_tracker.mounting import coverage_of, PlatformDoubt
+from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
 from tracking_core.batches import Coverage, Floats, Plots, State, Tracks
 from tracking_core.platform import Platform, pose_at
@@ -44,6 +45,7 @@ class RadarTracker:
             stares=scan.assembly == 'snapshot',
             collects=scan.assembly == 'rotation',
         )
+        self.sectors = SectorClock(scan)
         self._latest_stamp = np.nan  # of the messages that are collected to turns
         self._radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
         self._is_known = False  # which radar it is

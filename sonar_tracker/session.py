@@ -24,7 +24,7 @@ from msg_adapters.session import Session
 from sonar_tracker.config import MountConfig, SonarTrackerConfig
 from sonar_tracker.memory import recall, remember
 from sonar_tracker.tracker import bearing_states, SonarTracker
-from tracking_core.batches import Bearings, Tracks
+from tracking_core.batches import Bearings, Floats, Tracks
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
 
@@ -73,6 +73,10 @@ class SonarInstrument:
         """Return the marks of a message."""
         config = self.tracker.config
         return to_bearings(msg, config.sensor, config.max_plots, self._overrides)
+
+    def moments(self, plots: Bearings) -> Floats:
+        """Return the times (K,) [s] at which own ship must be known."""
+        return np.append(plots.time, plots.stamp)
 
     def check(self, frame: TrackingFrame, warn: Warn) -> None:
         """Warn of what looks wrong with how marks are told in this frame."""

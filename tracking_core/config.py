@@ -131,10 +131,10 @@ def with_values(config: Config, values: Mapping[str, Any]) -> Config:
 
 def hint(name: str, known: Collection[str]) -> str:
     """Return which known name was probably meant, as the end of a sentence, or ''."""
-    near = get_close_matches(name, known, 1, CLOSE) or [
-        other for other in known if other.endswith(f'.{name}')
+    near = get_close_matches(name, sorted(known), 1, CLOSE) or [
+        other for other in sorted(known) if other.endswith(f'.{name}')
     ]
-    return f'; did you mean {near[0]}?' if near else ''
+    return f'; did you mean {" or ".join(near)}?' if near else ''
 
 
 def _with_values(config: Config, values: dict[str, Any], prefix: str) -> Config:

@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where were the plots of a recording, in the frame of its tracks? By the rules of the node."""
+"""Where were the plots of a recording, in the frame of its tracks, however old own ship is?"""
 
 from __future__ import annotations
 

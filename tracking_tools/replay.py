@@ -135,7 +135,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         _show(chosen, configs, topics, summary, pages)
     except (BadBag, OSError) as error:
-        print(f'replay: no page: {error}', file=sys.stderr)
+        print(f'replay: no picture or page: {error}', file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print(f'replay: stopped; the tracks are in {chosen.output}', file=sys.stderr)

@@ -15,7 +15,7 @@ PLOTS = 'qos_overrides./plots.subscription'
         (
             'reliability',
             'relyable',
-            "must be one of reliable, best_effort, system_default, got 're",
+            "must be one of reliable, best_effort, system_default, best_available, got 're",
         ),
         ('reliability', 1, 'must be one of reliable'),
         ('history', 'all', 'must be one of keep_last, keep_all'),

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from msg_adapters.bad_message import BadMessage
+from msg_adapters.message_types import rosbags_types
+from msg_adapters.snapshots.file import read_snapshot, write_snapshot
 from msg_adapters.table import from_columns, to_columns
 from radar_tracker.config import RadarTrackerConfig, ScanConfig
 from radar_tracker.node_config import radar_node_config
@@ -20,6 +22,10 @@ from tracking_core.config import with_values
 from tracking_tools.scenarios import Contact, Legs, Radar, Scenario
 
 PERIOD, EPOCH = 2.5, 1_700_000_000.0
+SMALL = {
+    'sensor.range_sd': 20.0, 'sensor.azimuth_sd': 0.003, 'sensor.range_max': 2e4,
+    'motion.horizontal.acceleration_sd': [0.05, 0.5], 'initiation.speed_max': 30.0,
+}  # fmt: skip
 RADAR = Radar(
     period=PERIOD, rotation='clockwise', range_sd=20.0, azimuth_sd=0.003,
     detection_probability=0.95, range_limits=(500.0, 20_000.0),
@@ -83,7 +89,6 @@ def test_lone_contact_needs_a_period_and_is_taken_to_be_turned_to_clockwise():
     clock = SectorClock(ScanConfig(assembly='sector'))
     assert all(told(clock, plots) is None for plots in found if len(plots))
     clock = SectorClock(ScanConfig(assembly='sector', period=PERIOD))
-    assert told(clock, found[0]) is None or len(found[0]) == 0
     for plots in found:
         told(clock, plots)
     assert clock.beam.rate == pytest.approx(-2.0 * np.pi / PERIOD, rel=1e-6)
@@ -126,20 +131,13 @@ def test_full_turns_without_times_are_taken_at_their_middle_if_the_period_is_tol
 @pytest.mark.parametrize('has_times', [True, False], ids=['timed', 'untimed'])
 def test_few_contacts_are_held_in_sectors(assembly, has_times):
     """The same ids to the end, also where a contact lies on a cut, and no others."""
-    values = {
-        'sensor.range_sd': 20.0, 'sensor.azimuth_sd': 0.003, 'sensor.range_max': 2e4,
-        'motion.horizontal.acceleration_sd': [0.05, 0.5], 'initiation.speed_max': 30.0,
-        'scan.assembly': assembly,
-    }  # fmt: skip
-    config = with_values(RadarTrackerConfig(), values)
-    types = pytest.importorskip('msg_adapters.message_types').rosbags_types()
-    radar = radar_session(config, radar_node_config(), types, logging.getLogger('sectors'))
+    radar = session_of({'scan.assembly': assembly})
     ids, held = set(), []
     for number, plots in enumerate(sensed(RADAR, 8, 80)):
         columns = {'range': plots.range, 'azimuth': plots.azimuth}
         if has_times:
             columns['time'] = plots.time - plots.stamp
-        msg = from_columns(columns, plots.stamp, 'radar', types)
+        msg = from_columns(columns, plots.stamp, 'radar', rosbags_types())
         table = radar.plots(msg, 0.0)
         if table is None or number < 8 * 20:
             continue
@@ -148,3 +146,95 @@ def test_few_contacts_are_held_in_sectors(assembly, has_times):
         held.append(int((rows['status'] == 1).sum()))
     assert len(ids) == len(FEW)
     assert np.mean(held) > 0.98 * len(FEW)
+
+
+def session_of(values=()):
+    """Return a session for untimed sectors."""
+    config = with_values(
+        RadarTrackerConfig(), {**SMALL, 'scan.assembly': 'sector', **dict(values)}
+    )
+    types = rosbags_types()
+    return radar_session(config, radar_node_config(), types, logging.getLogger('sectors'))
+
+
+def send(radar, plots):
+    """Send a sector without times; return its table or None."""
+    columns = {'range': plots.range, 'azimuth': plots.azimuth}
+    return radar.plots(from_columns(columns, plots.stamp, 'radar', rosbags_types()), 0.0)
+
+
+def ids_of(radar):
+    """Return the ids of the confirmed tracks."""
+    return set(radar.tracks.id[radar.tracks.confirmed].tolist())
+
+
+def test_sectors_that_change_places_are_used_as_if_they_had_not():
+    """Late ones are used at their own time: the clock, too, goes back and follows once more."""
+    found, straight, swapped = sensed(RADAR, 8, 60), session_of(), session_of()
+    for plots in found:
+        send(straight, plots)
+    known = 201  # by then the clock has learnt
+    order = [n + 1 if n % 2 else n - 1 for n in range(known, len(found) - 1)]
+    for plots in (*found[:known], *(found[n] for n in order)):
+        send(swapped, plots)
+    assert ids_of(straight) == ids_of(swapped)
+    assert len(ids_of(swapped)) == len(FEW)
+
+
+def test_restart_knows_how_the_antenna_turns(tmp_path):
+    """No sector is refused after it, and no track is lost."""
+    found, before, after = sensed(RADAR, 8, 60), session_of(), session_of()
+    for plots in found[:320]:
+        send(before, plots)
+    write_snapshot(tmp_path / 'snapshot', before.instrument.remember())
+    after.instrument.recall(read_snapshot(tmp_path / 'snapshot'))
+    for plots in found[322:]:
+        send(after, plots)
+    assert after.counts['plots'].refused == {}
+    assert ids_of(after) == ids_of(before)
+    assert len(ids_of(after)) == len(FEW)
+
+
+def test_one_message_with_times_changes_nothing_and_several_do():
+    """A fault is no other driver."""
+    clock = SectorClock(ScanConfig(assembly='sector'))
+    found = [p for p in sensed(replace(RADAR, clutter_per_turn=30.0), 8, 30) if len(p)]
+    for number, plots in enumerate(found):
+        if number == 150:
+            clock.times(replace(untimed(plots), time=plots.time))
+        else:
+            times = told(clock, untimed(plots))
+    np.testing.assert_allclose(times, found[-1].time, atol=0.01 * PERIOD)
+    for plots in found:
+        shifted = replace(plots, time=plots.time + 75.0, stamp=plots.stamp + 75.0)
+        times = clock.times(shifted)
+    np.testing.assert_array_equal(times, shifted.time)
+
+
+def test_lost_sectors_are_counted():
+    """Two in five are missing; the times of the others are right."""
+    rng, clock, off = np.random.default_rng(2), SectorClock(ScanConfig(assembly='sector')), []
+    for number, plots in enumerate(sensed(replace(RADAR, clutter_per_turn=30.0), 8, 60)):
+        if rng.random() < 0.6:
+            times = told(clock, untimed(plots))
+            if number > 200:
+                off.append(times - plots.time)
+    assert np.abs(np.concatenate(off)).max() < 0.01 * PERIOD
+
+
+def test_reset_forgets_how_the_antenna_turned():
+    """As after a start."""
+    radar = session_of()
+    for plots in sensed(RADAR, 8, 20):
+        send(radar, plots)
+    assert radar.instrument.tracker.sectors.beam is not None
+    radar.reset()
+    assert radar.instrument.tracker.sectors.beam is None
+
+
+def test_own_ship_is_asked_for_where_the_plots_were():
+    """Not only at the stamp: transforms would know nothing of the rest."""
+    plots = replace(Plots.polar(np.full(2, 7.0), np.ones(2), np.ones(2)), stamp=7.0)
+    span = SectorClock(ScanConfig(period=4.0)).span(plots)
+    assert (span.min(), span.max()) == (7.0, 11.0)
+    assert set(SectorClock(ScanConfig(assembly='sector')).span(plots)) == {7.0}

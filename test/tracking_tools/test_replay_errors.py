@@ -147,7 +147,7 @@ def test_replay_without_a_confirmed_track_says_what_came(tmp_path, capsys, plots
     assert main([str(tmp_path / 'bad'), *words]) == 1
     told = capsys.readouterr()
     assert 'refused: 3 messages' in told.out
-    assert 'replay: no page: ' in told.err
+    assert 'replay: no picture or page: ' in told.err
     assert [path.exists() for path in made.values()] == [True, True, False]
 
 
