@@ -18,10 +18,10 @@ from tracking_core.linalg import wrap_angle
 
 TWO_PI = 2.0 * np.pi
 _IN_STEP = 0.97  # mean resultant length of azimuth minus antenna; 1: every plot on the beam
-_ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
+ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
 _SAMPLES = 400  # plots remembered while learning
-_PERIODS = (0.4, 60.0)  # of antennas [s]
+PERIODS = (0.4, 60.0)  # of antennas [s]
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _STILL = 1e-9  # part of the rate by which it may change and still stand
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
@@ -149,7 +149,7 @@ class Antenna:
 
     def _has_directions(self) -> bool:
         """Return whether plots came from all over; a lone contact fits many rates."""
-        return bool(np.abs(np.exp(1j * self._azimuth).mean()) < _ONE_DIRECTION)
+        return bool(np.abs(np.exp(1j * self._azimuth).mean()) < ONE_DIRECTION)
 
     def _is_worth_a_try(self) -> bool:
         """Return whether to look for a rate: costly, so less and less often in vain."""
@@ -162,7 +162,7 @@ class Antenna:
             candidates = TWO_PI / self._period * np.array([1.0, -1.0])
         else:
             step = 0.25 * TWO_PI / span / 2.0
-            rates = np.arange(TWO_PI / _PERIODS[1], TWO_PI / _PERIODS[0], step)
+            rates = np.arange(TWO_PI / PERIODS[1], TWO_PI / PERIODS[0], step)
             candidates = np.concatenate([rates, -rates])
         in_step = self._in_step(candidates)
         best = int(np.argmax(in_step))

@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from msg_adapters.bad_message import BadMessage
-from radar_tracker.antenna import Beam, TWO_PI
+from radar_tracker.antenna import Beam, ONE_DIRECTION, PERIODS, TWO_PI
 from radar_tracker.config import ScanConfig
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import wrap_angle
@@ -24,9 +24,7 @@ SECTORS = np.arange(3, 97)  # of a turn; of two nobody can tell which way the an
 _FEWEST, _SAMPLES = 12, 1000  # sectors with plots from which a turn is learnt
 _RARELY = 4  # one try in so many sectors with plots
 _TURNS, _PART = 3.0, 0.1  # of the antenna that must be seen; and for so many sectors at least
-_PERIODS = (0.4, 60.0)  # of antennas [s]
 _STEPS = 15  # between stamps that are remembered
-_ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FIT = 0.95  # of the mean resultant length that evenly filled sectors have
 _SURE = 0.1  # so much better than the same turn the other way round
 _CONVINCING = 3  # messages in a row that show that plots have times after all
@@ -131,7 +129,7 @@ class SectorClock:
 
     def _follow(self, stamp: float) -> None:
         """Turn to the sector with this stamp."""
-        if not abs(stamp - self._last) < _PERIODS[1]:
+        if not abs(stamp - self._last) < PERIODS[1]:
             self._forget()
         elif stamp > self._last:
             self._steps = np.append(self._steps, stamp - self._last)[-_STEPS:]
@@ -169,7 +167,7 @@ class SectorClock:
         if len(self._azimuth) < _FEWEST or not step or self._tries % _RARELY:
             return
         alike = np.abs(np.exp(1j * self._azimuth).mean())
-        if alike > _ONE_DIRECTION and not self._period:
+        if alike > ONE_DIRECTION and not self._period:
             return  # a lone contact fits many rates
         count = np.rint((self._stamp - stamp) / step)
         self._turn = self._best_turn(count, step)
@@ -181,7 +179,7 @@ class SectorClock:
     def _best_turn(self, count: Floats, step: float) -> float:
         """Return the turn from sector to sector that fits best [rad], 0 if none does."""
         sectors = np.array([round(self._period / step)]) if self._period else SECTORS
-        sectors = sectors[(sectors * step > _PERIODS[0]) & (sectors * step < _PERIODS[1])]
+        sectors = sectors[(sectors * step > PERIODS[0]) & (sectors * step < PERIODS[1])]
         if not len(sectors):
             return 0.0
         turns = np.stack([TWO_PI / sectors, -TWO_PI / sectors])
