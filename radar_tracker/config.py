@@ -132,8 +132,10 @@ class ScanConfig:
         doc='what the stamp of a message without plot times means',
     )  # fmt: skip
     period: float = parameter(
-        0.0, unit='s', doc='time of one antenna turn; 0: learnt from the plots', low=0.0
-    )
+        0.0, unit='s', low=0.0,
+        doc='time of one antenna turn, of which plots without times are then taken at the middle; '
+        '0: learnt from the plots',
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
