@@ -130,8 +130,8 @@ class Antenna:
 
     def _learn(self, time: Floats, azimuth: Floats) -> None:
         """Follow the rate, or find it."""
-        if not self._rate and len(time) and np.ptp(time) == 0.0:
-            self._stares |= bool(np.abs(np.exp(1j * azimuth).mean()) < _IN_STEP)
+        if not (self._stares or self._rate) and len(time) and np.ptp(time) == 0.0:
+            self._stares = bool(np.abs(np.exp(1j * azimuth).mean()) < _IN_STEP)
         if self._stares:
             return
         if len(time) > _SAMPLES // 2:

@@ -139,11 +139,11 @@ class Radar:
             covariance = turn @ covariance @ np.swapaxes(turn, 1, 2)
         position = offset + origin
         covariance = covariance + platform_noise(pose, offset)
-        unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
         if d == 3:
+            unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
             position[unknown, 2] = np.nan
         position, covariance = position[:, :d], covariance[:, :d, :d]
-        told = tell_noise(plots)
+        told = tell_noise(plots, self.is_polar)
         return Scan(
             time=plots.time,
             position=position,

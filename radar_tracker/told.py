@@ -12,9 +12,10 @@ NOTHING = (0.0, 0.0, 0.0)
 MOST = 100.0  # times the expected variance; a plot that tells more opens no gate for others
 
 
-def tell_noise(plots: Plots) -> bool:
-    """Return whether any plot tells its own noise."""
-    told = (plots.range_sd, plots.azimuth_sd, plots.elevation_sd, plots.position_covariance)
+def tell_noise(plots: Plots, is_polar: bool) -> bool:
+    """Return whether any plot, polar or Cartesian, tells its own noise."""
+    polar = (plots.range_sd, plots.azimuth_sd, plots.elevation_sd)
+    told = polar if is_polar else (plots.position_covariance,)
     return any(np.isfinite(values).any() for values in told)
 
 

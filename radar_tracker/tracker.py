@@ -13,7 +13,6 @@ import numpy as np
 from radar_tracker.antenna import Antenna, Beam, TWO_PI
 from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
-from radar_tracker.conversion import to_polar
 from radar_tracker.mounting import coverage_of, PlatformDoubt
 from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
@@ -146,7 +145,7 @@ class RadarTracker:
         if collected is None:
             return self.tracks
         pose = pose_at(platform, collected.time)
-        self._allow_for(PlatformDoubt.of(pose))
+        self._allow_for(PlatformDoubt.of(pose) if platform is not None else None)
         sweep = self._antenna.follow(collected, self._azimuth(collected), beam)
         ends = pose_at(platform, np.array([sweep.start_time, sweep.end_time]))
         coverage = self._last_coverage = coverage_of(sweep, ends, self.config.sensor)
@@ -195,4 +194,4 @@ class RadarTracker:
     def _azimuth(self, plots: Plots) -> Floats:
         if self._radar.is_polar:
             return plots.azimuth
-        return to_polar(plots.position[:, :2])[:, 1]
+        return np.asarray(np.arctan2(plots.position[:, 1], plots.position[:, 0]))

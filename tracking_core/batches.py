@@ -59,17 +59,16 @@ class Plots:
 
     @staticmethod
     def _of(rows: int, **columns: Floats) -> Plots:
-        absent = {
-            f.name: np.full(rows, np.nan)
-            for f in fields(Plots)
-            if f.name not in ('stamp', 'frame')
-        }
+        absent = dict(zip(_MEASURED, np.full((len(_MEASURED), rows), np.nan), strict=True))
         absent['position'] = np.full((rows, 3), np.nan)
         absent['position_covariance'] = np.full((rows, 3, 3), np.nan)
         return Plots(**{**absent, **columns})  # type: ignore[arg-type]
 
     def __len__(self) -> int:
         return len(self.time)
+
+
+_MEASURED = tuple(f.name for f in fields(Plots) if f.name not in ('stamp', 'frame'))
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, State, Tracks
@@ -14,7 +12,7 @@ from tracking_core.composition import Density, Setup
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
 from tracking_core.linalg import inverse, symmetrise
 from tracking_core.resolution import Resolution, within_limit
-from tracking_core.rows import concatenate, take
+from tracking_core.rows import change, concatenate, take
 from tracking_core.update import Look
 
 _CLAIMED = 0.5  # a plot more likely than this from a known contact starts no other track
@@ -68,7 +66,7 @@ def start_tracks(
     used = np.minimum(np.bincount(starts.plot, starts.existence_probability, len(fresh)), 1.0)
     age = scan.coverage.end_time - state.seeds.time
     young = take(state.seeds, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
-    left = replace(fresh, free=fresh.free * (1.0 - used))
+    left = change(fresh, free=fresh.free * (1.0 - used))
     if len(starts.plot):
         born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)
     else:
@@ -95,7 +93,7 @@ def with_speed_prior(starts: Starts, sd: float) -> Starts:
     gain = cross @ inverse(P[:, 1::2, 1::2] + sd**2 * np.eye(d))[0]
     mean = starts.mean - (gain @ starts.mean[:, :, 1:]).reshape(K, d, 2)
     covariance = symmetrise(P - gain @ np.swapaxes(cross, 1, 2))
-    return replace(starts, mean=mean, covariance=covariance.reshape(K, d, 2, d, 2))
+    return change(starts, mean=mean, covariance=covariance.reshape(K, d, 2, d, 2))
 
 
 def new_tracks(

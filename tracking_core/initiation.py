@@ -14,7 +14,7 @@ from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import wrap_angle
 from tracking_core.looks import longest_since
-from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_variance
+from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_covariance
 from tracking_core.rows import take, take_rows
 
 _MOST_PAIRS = 1_000_000  # of plots looked at; the last seeds go without
@@ -50,8 +50,7 @@ def one_point(fresh: Seeds, existence: float, config: InitiationConfig) -> Start
     mean, covariance = np.zeros((K, d, 2)), np.zeros((K, d, 2, d, 2))
     mean[:, :, 0] = fresh.position
     covariance[:, :, 0, :, 0] = fresh.covariance
-    axis = np.arange(d)
-    covariance[:, axis, 1, axis, 1] = velocity_variance(d, config)
+    covariance[:, :, 1, :, 1] = velocity_covariance(d, config)
     return Starts(mean, covariance, existence * fresh.free, np.arange(K), 1)
 
 
@@ -136,8 +135,8 @@ def _within_reach(
     step = wrap_angle(step) if is_angular else step
     noise = _NOISE_SIGMAS * np.sqrt(take_rows(variances[0], old) + take_rows(variances[1], new))
     slack = np.maximum(np.abs(step) - noise, 0.0)
-    fits = np.sqrt((slack[:, :2] ** 2).sum(axis=1)) <= config.speed_max * dt
-    fits &= dt > shortest
+    level = slack[:, 0] if d == 1 else np.hypot(slack[:, 0], slack[:, 1])
+    fits = (level <= config.speed_max * dt) & (dt > shortest)
     for axis in range(2, d):
         fits &= slack[:, axis] <= config.climb_max * dt
     kept = fits.nonzero()[0]
@@ -162,6 +161,7 @@ def _starts(
 
 def plane_start(starts: Starts, coordinates: tuple[int, ...]) -> tuple[Floats, Floats]:
     """Return mean (K, n) and covariance (K, n, n) of these coordinates, as an estimator starts."""
-    at, K, n = list(coordinates), len(starts.mean), 2 * len(coordinates)
-    covariance = starts.covariance[:, at][:, :, :, at]
+    K, n = len(starts.mean), 2 * len(coordinates)
+    at = slice(coordinates[0], coordinates[-1] + 1)
+    covariance = starts.covariance[:, at, :, at]
     return starts.mean[:, at].reshape(K, n), covariance.reshape(K, n, n)

@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints, Mixture, Tracks
 from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
+from tracking_core.rows import change
 
 _HISTORY = (1 << 60) - 1  # looks remembered as bits
 _MORE_THAN_NOT = 0.5
@@ -160,7 +161,7 @@ def existence_after(
 
 def count_looks(tracks: Tracks, hit: Bools) -> Tracks:
     """Return the tracks with this look in hits, misses and history."""
-    return replace(
+    return change(
         tracks,
         hits=tracks.hits + hit,
         misses=np.where(hit, 0, tracks.misses + 1),

@@ -4,15 +4,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints, Tracks
 from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import MergeConfig
 from tracking_core.linalg import inverse, wrap_angle
-from tracking_core.rows import take_rows
+from tracking_core.rows import change, take_rows
 
 _SHARE = 1.0 / 3.0  # of its plots; a true double is one soon after its start
 
@@ -48,7 +46,7 @@ def end_doubles(
     """
     near = duplicates(tracks, config.distance, is_angular)
     looks = np.where(near, tracks.doubled + 1, 0)
-    tracks = replace(tracks, doubled=np.where(passed, looks, tracks.doubled))
+    tracks = change(tracks, doubled=np.where(passed, looks, tracks.doubled))
     patience = np.maximum(config.looks, _SHARE * tracks.hits if is_unresolved else 0)
     return tracks, near & (~tracks.confirmed | (tracks.doubled >= patience))
 

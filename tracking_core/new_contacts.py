@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -26,10 +27,9 @@ def share_of_new(expected: float, evidence: Floats, free: Floats) -> float:
     or when a whole formation appears, it is far too small, and the pairs themselves tell: a few
     steps of expectation and maximisation, held back by the expectation for want of evidence.
     """
-    share = expected
+    share, one, both = expected, free * (1.0 + evidence), free * evidence
     for _ in range(_STEPS):
-        prior = share * free
-        real = np.minimum(prior * (1.0 + evidence) / (1.0 + prior * evidence), 1.0).sum()
+        real = share * float((one / (1.0 + share * both)).sum())
         share = min((_TRUST * expected + real) / (_TRUST + len(free)), MOST_NEW)
     return share
 
@@ -44,7 +44,7 @@ class Odds:
 
     def at_best(self, seeds: Seeds, dt: float) -> Floats:
         """Return the odds (S,) of a second plot just where the first is, dt [s] later."""
-        spread = self._spread(2.0 * seeds.covariance, np.full(len(seeds), dt))
+        spread = self._spread(2.0 * seeds.covariance, dt)
         return self.of_plots(seeds) * _peak(determinant(spread), spread.shape[1])
 
     def of_plots(self, plots: Seeds) -> Floats:
@@ -63,13 +63,10 @@ class Odds:
         distance = np.einsum('kd,kde,ke->k', step, inverted, step)
         return np.asarray(_peak(size, step.shape[1]) * np.exp(-0.5 * distance))
 
-    def _spread(self, noise: Floats, dt: Floats) -> Floats:
+    def _spread(self, noise: Floats, dt: Floats | float) -> Floats:
         """Return the covariance (K, d, d) of a step with this noise (K, d, d) after dt (K,)."""
-        spread = noise.copy('K')
-        d = noise.shape[1]
-        for axis, variance in enumerate(velocity_variance(d, self.config)):
-            spread[:, axis, axis] += variance * dt * dt
-        return spread
+        velocity = velocity_covariance(noise.shape[1], self.config)
+        return np.asarray(noise + np.multiply.outer(dt * dt, velocity))
 
 
 def _peak(size: Floats, d: int) -> Floats:
@@ -77,16 +74,18 @@ def _peak(size: Floats, d: int) -> Floats:
     return np.asarray(1.0 / np.sqrt((2.0 * np.pi) ** d * size))
 
 
-def velocity_variance(d: int, config: InitiationConfig) -> Floats:
-    """Return the variance of each coordinate (d,) of velocities even within the limits."""
+@lru_cache(maxsize=16)
+def velocity_covariance(d: int, config: InitiationConfig) -> Floats:
+    """Return the covariance (d, d) of velocities even within the limits, not to be written to."""
     variance = limits(d, config) ** 2 / 3.0  # on a line
     if d > 1:
         variance[:2] = config.speed_max**2 / 4.0  # on a disc
     if config.speed_sd > 0.0:
         variance[:2] = np.minimum(variance[:2], config.speed_sd**2)
-    return variance
+    return np.diag(variance)
 
 
+@lru_cache(maxsize=16)
 def limits(d: int, config: InitiationConfig) -> Floats:
     """Return the speed limit on each of d coordinates [m/s, sonar rad/s]."""
     return np.array([config.speed_max] * min(d, 2) + [config.climb_max] * (d - 2))

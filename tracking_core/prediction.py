@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from tracking_core.composition import Setup
 from tracking_core.gating import box_pairs
 from tracking_core.looks import inside_coverage, margins, next_looks
 from tracking_core.pairing import Gates, open_gates, thresholds
-from tracking_core.rows import take, take_rows
+from tracking_core.rows import change, take, take_rows
 
 _GATES_APART = 2.0  # 3-sigma gates between a track and where its next gate may begin
 
@@ -55,7 +55,7 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
     gates = open_gates(setup.planes, planes, setup.sensor, scan, threshold)
     widest = gates.half_size[:, :2].max(axis=1, initial=0.0)
     inside = inside_coverage(gates.centre, scan.coverage)
-    predicted = replace(
+    predicted = change(
         near, planes=planes, time=time, existence_probability=setup.lifecycle.prior(near, dt)
     )
     return Predicted(

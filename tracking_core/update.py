@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from tracking_core.linalg import is_positive_definite, sum_by_track
 from tracking_core.looks import LONGEST_WAIT
 from tracking_core.pairing import Gated, pair, thresholds
 from tracking_core.prediction import longest_lag, next_passes, predict_tracks, Predicted
-from tracking_core.rows import take, take_of_both
+from tracking_core.rows import change, take, take_of_both
 from tracking_core.sharing import Share, share_plots
 from tracking_core.unresolved import add_common
 
@@ -90,7 +90,7 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     waiting[gated.pairs.plot[~due[gated.pairs.track]]] = True
 
     # A track that waits is not seen now; it stays as it was.
-    seen = replace(near, detection=np.where(due, near.detection, 0.0))
+    seen = change(near, detection=np.where(due, near.detection, 0.0))
     gated = take(gated, (seen.detection > 0.0)[gated.pairs.track])
     gated, common = add_common(seen, gated, scan, setup)
     existence = seen.tracks.existence_probability
@@ -160,7 +160,7 @@ def _update(
     found = share.found
     hit = setup.lifecycle.hits(found, seen.planes[0], planes[0])
     weighted = sum_by_track(share.association.probability * gated.distance, track, T)
-    tracks = replace(
+    tracks = change(
         count_looks(seen.tracks, hit),
         planes=planes,
         existence_probability=share.existence_probability,
@@ -172,7 +172,7 @@ def _update(
     confirmed, ended = setup.lifecycle.judge(tracks, share.existence_probability)
     ended |= has_left(tracks, seen.detection > 0.0)
     sound = [is_positive_definite(mixture.covariance).all(axis=1) for mixture in planes]
-    return replace(tracks, confirmed=confirmed), ended, ~np.logical_and.reduce(sound)
+    return change(tracks, confirmed=confirmed), ended, ~np.logical_and.reduce(sound)
 
 
 def _follow_level(tracks: Tracks, gated: Gated, share: Share, scan: Scan) -> Floats:
