@@ -69,9 +69,7 @@ class Radar:
         """Return what the radar itself does not know (T, d, d) at offsets (T, d) from it [m^2]."""
         d, c = self.dimensions, self.config
         if not self.is_polar:
-            noise = np.zeros((len(offset), d, d), order='F')
-            noise[:, range(d), range(d)] = c.position_sd**2
-            return noise
+            return np.broadcast_to(c.position_sd**2 * np.eye(d), (len(offset), d, d))
         sd = np.broadcast_to([c.range_sd, c.azimuth_sd, c.elevation_sd][:d], offset.shape)
         return linearised(to_polar(offset), sd)[1]
 

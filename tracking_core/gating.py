@@ -13,7 +13,7 @@ import numpy as np
 from tracking_core.batches import Floats, Ints
 from tracking_core.linalg import wrap_angle
 
-_FEW = 1_500  # track-plot combinations that are all compared sooner than sorted
+_FEW = 3_000  # track-plot combinations that are all compared sooner than sorted
 _MANY = 500_000  # ... for which the cells are worth their price
 _AT_ONCE = 2**14  # candidates whose arrays stay near the processor
 _SAMPLED = 64  # boxes that tell the usual size

@@ -54,10 +54,12 @@ def _share(table: Floats, best_only: bool) -> Floats:
     rows, columns, size = table.shape
     events = _events(rows, columns)
     log_weight = events.pairs.T @ table.reshape(-1, size)  # (N, C)
-    weight = np.exp(log_weight - log_weight.max(axis=0))
     if best_only:
-        best = np.maximum.reduceat(weight, events.first, axis=0)
-        weight[weight < best.repeat(events.alike, axis=0)] = 0.0
+        best = np.maximum.reduceat(log_weight, events.first, axis=0)
+        weight = np.exp(best - best.max(axis=0)).repeat(events.alike, axis=0)
+        weight *= log_weight >= best.repeat(events.alike, axis=0)
+    else:
+        weight = np.exp(log_weight - log_weight.max(axis=0))
     share = events.pairs @ weight / weight.sum(axis=0)
     return np.asarray(share.reshape(table.shape))
 
