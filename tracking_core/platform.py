@@ -10,7 +10,6 @@ orientations turn evenly, beyond the last one they go on for a bounded time.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -33,7 +32,7 @@ class PlatformPose:
     position_covariance: Floats  # (M, 3, 3) [m^2]
     yaw_variance: Floats  # (M,) [rad^2]
 
-    @cached_property
+    @property
     def yaw(self) -> Floats:
         """Heading (M,), anticlockwise from x [rad]."""
         x, y, z, w = self.orientation.T
@@ -139,12 +138,9 @@ class Platform:
 
 def pose_at(platform: Platform | None, times: Floats) -> PlatformPose:
     """Return own ship at these times (M,) [s], at rest at the origin if there is none."""
-    return _at_rest(len(times)) if platform is None else platform.at(times)
-
-
-@lru_cache(maxsize=4)
-def _at_rest(M: int) -> PlatformPose:
-    """Return M times the origin; the arrays are shared and not to be written to."""
+    if platform is not None:
+        return platform.at(times)
+    M = len(times)
     orientation = np.zeros((M, 4))
     orientation[:, 3] = 1.0
     return PlatformPose(
