@@ -62,7 +62,7 @@ def _results(
 ) -> dict[str, Result]:
     versions = {name: is_ for one in entrants.values() for name, is_ in one.versions.items()}
     origin, end = machine(versions), monotonic() + MINUTE * chosen.budget
-    total = sum(one.scans * one.runs for one in entries.values()) * len(entrants)
+    total = 2 * sum(one.scans * one.runs for one in entries.values()) * len(entrants)
     results = {}
     with tqdm(total=total, unit='scan', disable=None) as bar:
 

@@ -87,7 +87,7 @@ def ratios(results: Results) -> str:
             if not row.figures:
                 lines.append(
                     f'{results[name].title} | {row.title} | >= {wanted} | {row.ratio:.0f} in its '
-                    f'scan {row.scans} | not judged, out of time '
+                    f'scan {row.scans} | | not judged, out of time '
                     f'| {_yes(row.ratio >= wanted)}, the speed'
                 )
                 continue
@@ -96,10 +96,12 @@ def ratios(results: Results) -> str:
             holds = row.ratio >= wanted and no_worse
             lines.append(
                 f'{results[name].title} | {row.title} | >= {wanted} | {row.ratio:.0f} '
+                f'| {"" if math.isnan(row.stretched) else f"{row.stretched:.0f}"} '
                 f'| {gospa.mean - gospa.margin:.0f} / {gospa.mean:.0f} m '
                 f'| {_yes(holds)}'
             )
-    return table('scene | against | wanted | measured | GOSPA ours / theirs | holds', lines)
+    head = 'scene | against | wanted | measured | in a row | GOSPA ours / theirs | holds'
+    return table(head, lines)
 
 
 def _yes(holds: bool) -> str:

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from benchmarks.peers.judge import judge, SETTLING, Verdict
-from benchmarks.peers.race import Lap, Memory
+from benchmarks.peers.race import Lap, Memory, typical
 from benchmarks.peers.scenes import Scene
 
 ACCURACY = {'gospa': -1.0, 'held': 1.0, 'rmse': -1.0, 'switches': -1.0}  # which sign is better
@@ -44,6 +44,7 @@ class Row:
     ratio: float  # CPU by that of ours, mean over the runs
     last: float  # CPU of its last scan [ms]
     memory: Memory | None
+    stretched: float = math.nan  # ratio as above, of scans in a row
 
     @property
     def finished(self) -> bool:
@@ -70,6 +71,13 @@ def compare(
         float(np.mean(ratio)) if ratio else math.nan,
         1e3 * laps[0].cpu[-1] if done else math.nan, memory,
     )  # fmt: skip
+
+
+def cost_ratio(theirs: Lap, ours: Lap) -> float:
+    """Return the usual CPU of a scan by that of ours, in the scans that both did; NaN: too few."""
+    scans = min(theirs.scans, ours.scans)
+    mine, own = (typical(lap.cpu[:scans], SETTLING) for lap in (theirs, ours))
+    return mine / own
 
 
 def _figures(theirs: Sequence[Verdict], same: Sequence[Verdict]) -> dict[str, Figure]:

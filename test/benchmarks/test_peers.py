@@ -16,7 +16,7 @@ from benchmarks.peers.menu import MENU
 from benchmarks.peers.race import Lap, race
 from benchmarks.peers.report import Result, where_better
 from benchmarks.peers.scenes import Scene
-from benchmarks.peers.summary import compare
+from benchmarks.peers.summary import compare, cost_ratio
 
 
 def scene(name: str = 'one_that_turns', scans: int = 20) -> Scene:
@@ -43,6 +43,7 @@ def test_main_reports_ours_where_nothing_else_is_asked(tmp_path: Path) -> None:
     assert text.count('| contact_tracking |') == 4
     assert text.count('12 scans, 1 of 2 runs.') == 3
     assert '{' not in text
+    assert '| in a row |' in text
     assert page.with_suffix('.png').stat().st_size > 1000
 
 
@@ -104,6 +105,25 @@ def test_race_gives_every_tracker_every_place() -> None:
     assert {''.join(told[k : k + 3]) for k in range(0, 90, 3)} == {
         ''.join(order) for order in permutations('abc')
     }
+
+
+def test_race_in_stretches_gives_each_tracker_some_scans_in_a_row() -> None:
+    """All scans are done, five by one tracker before the next has its turn."""
+    told: list[str] = []
+    laps = race(scene(scans=12), dict.fromkeys('ab', ENTRANTS['ours']), 1e9, told.append, 5)
+    assert [lap.scans for lap in laps.values()] == [12, 12]
+    text = ''.join(told)
+    assert {text[k : k + 5] for k in (0, 5, 10, 15)} == {'aaaaa', 'bbbbb'}
+    assert sorted(text[20:]) == ['a', 'a', 'b', 'b']
+
+
+def test_ratio_of_costs_is_over_the_scans_that_both_did() -> None:
+    """The others are of no account, and too few give no ratio."""
+    slow, own = Lap(cpu=[9.0] * 5 + [4.0] * 10), Lap(cpu=[9.0] * 5 + [2.0] * 10 + [100.0] * 30)
+    slow.rows, own.rows = [None] * 15, [None] * 45
+    assert cost_ratio(slow, own) == 2.0
+    few = Lap([None] * 4, [1.0] * 4)
+    assert np.isnan(cost_ratio(few, own))
 
 
 def test_where_better_names_the_better_tracker_only() -> None:
