@@ -123,7 +123,8 @@ class TrackingFrame:
         if stands_still and not self.newcomer.is_believed(frame, time):
             raise BadMessage(
                 'not believed yet',
-                f"own ship in frame '{frame}' is new, believed from message {AGREEING} on",
+                f"own ship in frame '{frame}' is new: believed from message {AGREEING} on, "
+                'nothing is wrong if it goes on',
             )
         if not self.name or (self.learnt and not self.moving and frame != self.name):
             self.sensor = None

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
@@ -36,12 +37,18 @@ class Ledger:
 
     def __init__(self, topics: str, say: Callable[[str], object]) -> None:
         self.counts = {topic: InputCount() for topic in topics.split()}
+        self.failures: Counter[str] = Counter()  # of what is no input, by what failed
         self.warn = Throttle(say)
 
     def refuse(self, topic: str, reason: str, error: object) -> None:
         """Count a message that cannot be used; `reason` has no values in it."""
         self.counts[topic].refused[reason] += 1
         self.warn(f'{topic}: {reason}', f'{topic} message refused: {error}')
+
+    def fail(self, what: str, error: object) -> None:
+        """Count and tell what could not be done; `what` has no values in it."""
+        self.failures[what] += 1
+        self.warn(what, f'{what}: {error}')
 
     def shed(self, topic: str) -> None:
         """Count a message that is passed over for a newer one."""

@@ -102,6 +102,7 @@ class Health:
 def _complaints(session: Session) -> Counter[str]:
     """Return what was lost, shed, refused and dropped so far, by topic and reason."""
     complaints = Counter({f'{session.instrument.topic} were silent': session.guard.silences})
+    complaints.update(session.ledger.failures)
     for topic, count in session.counts.items():
         complaints[f'{topic} lost'] += count.lost
         complaints[f'{topic} shed'] += count.shed

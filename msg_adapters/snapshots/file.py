@@ -32,13 +32,18 @@ class BadSnapshot(ValueError):  # noqa: N818 (it is the snapshot that is bad)
 
 
 def write_snapshot(path: Path, tree: Mapping[str, Any]) -> None:
-    """Put a tree of values where the old file was, all or nothing; OSError if that fails."""
+    """
+    Put a tree of values where the old file was, all or nothing; OSError if that fails.
+
+    A folder that is not there is made.
+    """
     arrays: list[Any] = []
     text = json.dumps(to_plain(dict(tree), arrays)).encode()
     body = b''.join(
         [len(text).to_bytes(_LENGTH, 'little'), text, *(values.tobytes() for values in arrays)]
     )
     head = MAGIC + f'{VERSION}\n{sha256(body).hexdigest()}\n'.encode()
+    path.parent.mkdir(parents=True, exist_ok=True)
     number, name = tempfile.mkstemp(prefix=f'.{path.name}.', dir=path.parent)
     try:
         with os.fdopen(number, 'wb') as file:

@@ -108,7 +108,7 @@ class Keeper:
             write_snapshot(self._path, memory)
             self._bound, self._written = bound, tracker.state
         except OSError as error:
-            session.ledger.warn('snapshot', f'snapshot {self._path} cannot be written: {error}')
+            session.ledger.fail('snapshot cannot be written', f'{self._path}: {error}')
 
     def reserve_ids(self) -> None:
         """Keep in the file which ids are given away; to be called before they go."""

@@ -9,6 +9,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
+from msg_adapters.live.health import Health
 from msg_adapters.node_config import SnapshotConfig
 from msg_adapters.snapshots import file as snapshot_file
 from msg_adapters.snapshots.file import BadSnapshot, read_snapshot, write_snapshot
@@ -190,6 +191,29 @@ def test_write_leaves_the_old_file_when_it_fails(path, monkeypatch):
         write_snapshot(path, {'a': 2})
     assert read_snapshot(path) == {'a': 1}
     assert list(path.parent.iterdir()) == [path]
+
+
+def test_folder_of_the_file_is_made(sensor, tmp_path):
+    """A path that nobody has made yet is no mistake."""
+    path = tmp_path / 'one' / 'two' / 'tracks'
+    station = Station(sensor, path)
+    station.scan(0)
+    station.keeper.save()
+    assert read_snapshot(path)['sensor'] == SENSORS[sensor].topic
+
+
+def test_file_that_cannot_be_written_is_told_in_log_and_diagnostics(sensor, tmp_path):
+    """With its path and the reason; tracking goes on."""
+    (tmp_path / 'file').touch()
+    path = tmp_path / 'file' / 'tracks'
+    station = Station(sensor, path)
+    station.scan(0)
+    station.keeper.save()
+    assert any(f'snapshot cannot be written: {path}: ' in line for line in station.lines)
+    health = Health(started=0.0, plots_at=0.0)
+    assert health.level(station.session, 1.0) == ('WARN', 'snapshot cannot be written')
+    health.told(station.session)
+    assert health.level(station.session, 1.0) == ('OK', 'tracking')
 
 
 @pytest.mark.parametrize(
