@@ -76,16 +76,17 @@ def _peak(size: Floats, d: int) -> Floats:
 
 @lru_cache(maxsize=16)
 def velocity_covariance(d: int, config: InitiationConfig) -> Floats:
-    """Return the covariance (d, d) of velocities even within the limits, not to be written to."""
+    """Return the covariance (d, d) of velocities even within the limits; it cannot be changed."""
     variance = limits(d, config) ** 2 / 3.0  # on a line
     if d > 1:
         variance[:2] = config.speed_max**2 / 4.0  # on a disc
     if config.speed_sd > 0.0:
         variance[:2] = np.minimum(variance[:2], config.speed_sd**2)
-    return np.diag(variance)
+    covariance = np.diag(variance)
+    covariance.setflags(write=False)  # every caller gets this one
+    return covariance
 
 
-@lru_cache(maxsize=16)
 def limits(d: int, config: InitiationConfig) -> Floats:
     """Return the speed limit on each of d coordinates [m/s, sonar rad/s]."""
     return np.array([config.speed_max] * min(d, 2) + [config.climb_max] * (d - 2))
