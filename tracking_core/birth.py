@@ -6,16 +6,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from tracking_core.association.clusters import renumber
 from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, State, Tracks
 from tracking_core.common_plots import places_of
 from tracking_core.composition import Density, Setup
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
-from tracking_core.linalg import inverse, symmetrise
+from tracking_core.linalg import inverse, sum_by_track, symmetrise
 from tracking_core.resolution import Resolution, within_limit
 from tracking_core.rows import change, concatenate, take
 from tracking_core.update import Look
 
 _CLAIMED = 0.5  # a plot more likely than this from a known contact starts no other track
+_SURE = 1.0 - 1e-9  # no start is surer: the others of a plot may still be the right one
 
 
 def start_tracks(
@@ -63,6 +65,7 @@ def start_tracks(
             setup.sensor.is_angular,
         )  # fmt: skip
         starts = with_speed_prior(starts, setup.initiation.speed_sd)
+        starts = one_a_plot(starts, len(fresh))
     used = np.minimum(np.bincount(starts.plot, starts.existence_probability, len(fresh)), 1.0)
     age = scan.coverage.end_time - state.seeds.time
     young = take(state.seeds, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
@@ -94,6 +97,26 @@ def with_speed_prior(starts: Starts, sd: float) -> Starts:
     mean = starts.mean - (gain @ starts.mean[:, :, 1:]).reshape(K, d, 2)
     covariance = symmetrise(P - gain @ np.swapaxes(cross, 1, 2))
     return change(starts, mean=mean, covariance=covariance.reshape(K, d, 2, d, 2))
+
+
+def one_a_plot(starts: Starts, plots: int) -> Starts:
+    """
+    Return one start for each of the plots (M,) that starts end in: the mixture of these.
+
+    Of contacts side by side each plot may follow several. That is one contact whose velocity is
+    not sure yet, not several contacts of which none is sure to exist.
+    """
+    ends, row = renumber(starts.plot, plots)
+    if len(ends) == len(row):
+        return starts
+    chance, L = np.minimum(starts.existence_probability, _SURE), len(ends)
+    share = (chance / np.bincount(row, chance)[row])[:, None, None]
+    mean = sum_by_track(share * starts.mean, row, L)
+    apart = (starts.mean - mean[row]).reshape(len(row), -1)
+    P = starts.covariance.reshape(*apart.shape, -1) + apart[:, :, None] * apart[:, None, :]
+    P = sum_by_track(share * P, row, L).reshape(L, *starts.covariance.shape[1:])
+    none_is_right = np.exp(np.bincount(row, np.log1p(-chance)))
+    return Starts(mean, P, 1.0 - none_is_right, ends, starts.hits)
 
 
 def new_tracks(
