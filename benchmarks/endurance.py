@@ -42,8 +42,10 @@ ALIVE, STAY, CLUTTER = 40.0, 1200.0, 15.0  # contacts, s each, false plots a tur
 CROWD, CROWD_TURNS, SPANS = 10_000, 100, 10  # contacts; turns of a span, and how many
 BEGIN = 1_700_000_000.0  # s, stamp of the first turn
 GROWTH, CROWDED, DRIFT = 0.02, 0.10, 0.10  # of memory, its peaks in a crowd; cost of a turn
+CROWD_TREND = 0.06  # of memory in a crowd: arrays of megabytes come and go
 MAX_ROWS = 100_000
 PATIENCE = 120.0  # s for an answer: the transport takes megabytes slowly on a busy machine
+AGAIN = 20.0  # s until a turn is sent once more; a turn that comes twice is two for the tracker
 LATER = 0.01  # s by which a turn that is sent once more is later
 
 
@@ -102,6 +104,7 @@ def _ask(probe: TrackerProbe, plots: Any, stamp: float) -> Columns:
     probe.peer.ask(
         lambda attempt: probe.send(plots, stamp + LATER * attempt),
         lambda: probe.tables and seconds(probe.tables[-1].header.stamp) > stamp - LATER / 2,
+        again=AGAIN,
         deadline=PATIENCE,
     )
     return to_columns(probe.tables[-1], MAX_ROWS)
@@ -131,7 +134,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         log = Path(folder, 'node.log')
         watch = crowd(log) if given.crowd else day(given.hours, log)
     print(watch.verdict())
-    has_grown = watch.growth > (CROWDED if given.crowd else GROWTH) or watch.trend > GROWTH
+    peak, trend = (CROWDED, CROWD_TREND) if given.crowd else (GROWTH, GROWTH)
+    has_grown = watch.growth > peak or watch.trend > trend
     return int(has_grown or watch.drift > DRIFT or watch.again > 0)
 
 
