@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentTypeError
+import math
 from pathlib import Path
 
 
@@ -13,6 +14,24 @@ def file_to_write(text: str) -> Path:
     if text.endswith('/') or Path(text).is_dir():
         raise ArgumentTypeError(f'{text} is a directory, not the name of a file')
     return Path(text)
+
+
+def positive(text: str) -> float:
+    """Return a finite number above 0."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0.0 < number < math.inf:
+        raise ArgumentTypeError(f'must be a number above 0, got {text}')
+    return number
+
+
+def count(text: str) -> int:
+    """Return a whole number from 1 on."""
+    if not text.isdecimal() or int(text) == 0:
+        raise ArgumentTypeError(f'must be a whole number from 1 on, got {text}')
+    return int(text)
 
 
 def seed(text: str) -> int:

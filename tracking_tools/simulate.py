@@ -14,7 +14,7 @@ import sys
 from tqdm import tqdm
 
 from msg_adapters.message_types import rosbags_types
-from tracking_tools.arguments import seed
+from tracking_tools.arguments import positive, seed
 from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.scenarios.menu import build, SCENARIOS
 from tracking_tools.scenarios.messages import EPOCH, PLOTS, send, TRUTH
@@ -103,7 +103,7 @@ def _parser() -> argparse.ArgumentParser:
     add('--output', type=Path, metavar='BAG', help='rosbag2 directory to write')
     add('--compress', action='store_true', help='compress the bag (zstd)')
     add('--seed', type=seed, help='of the random numbers')
-    add('--duration', type=float, metavar='S', help='how long the radar runs [s]')
+    add('--duration', type=positive, metavar='S', help='how long the radar runs [s]')
     add('--sectors', type=int, default=1, metavar='N', help='messages in a turn (default 1)')
     add('--live', action='store_true', help='publish instead, on plots and truth')
     add('--rate', type=float, default=1.0, help='live: times real time (default 1)')

@@ -16,16 +16,18 @@ from typing import Any
 
 from tqdm import tqdm
 
-from tracking_tools.arguments import file_to_write
+from tracking_tools.arguments import count, file_to_write, positive
 from tracking_tools.evaluation.options import add_yardstick, yardstick_of
 from tracking_tools.parameter_file import configure, read_parameter_file
+from tracking_tools.replay_topics import Topics
 from tracking_tools.sensors import SENSORS
 from tracking_tools.stopping import STOPPED
-from tracking_tools.sweeping.crew import cores, Crew, crew_of, SweepFailed
+from tracking_tools.sweeping.crew import cores, Crew, crew_of, RunFailed, SweepFailed
 from tracking_tools.sweeping.figures import SHOWN
 from tracking_tools.sweeping.store import Figures, Store, write_whole
 from tracking_tools.sweeping.table import Case, cases_of, to_json, to_text
 from tracking_tools.sweeping.tasks import (
+    check_apart,
     settings_of,
     source_of,
     swept_values,
@@ -37,9 +39,11 @@ from tracking_tools.sweeping.tasks import (
 Planned = list[tuple[Values, Task]]
 
 
-def sweep(planned: Planned, store: Store, crew: Crew, quiet: bool = False) -> list[Case]:
+def sweep(
+    planned: Planned, store: Store, crew: Crew, quiet: bool = False
+) -> tuple[list[Case], list[str]]:
     """
-    Do what is not done yet, and return all runs of every setting.
+    Do what is not done yet; return the runs of every setting, and which runs failed and why.
 
     Parameters
     ----------
@@ -55,7 +59,7 @@ def sweep(planned: Planned, store: Store, crew: Crew, quiet: bool = False) -> li
     Raises
     ------
     SweepFailed
-        When a run cannot be done; those done are kept.
+        When nobody can do runs any more; those done are kept.
 
     """
     found = {task.key: store.read(task) for _, task in planned}
@@ -64,11 +68,18 @@ def sweep(planned: Planned, store: Store, crew: Crew, quiet: bool = False) -> li
         total=len(planned), initial=len(planned) - len(todo), desc='sweep', unit='run',
         disable=quiet or None,
     )  # fmt: skip
+    failed: dict[str, str] = {}
     with bar, closing(crew(todo)) as done:
-        for task, text in done:
-            store.write(task, text)
+        for task, outcome in done:
+            if isinstance(outcome, RunFailed):
+                failed[task.key] = outcome.why
+            else:
+                store.write(task, outcome)
             bar.update()
-    return cases_of([(setting, task, _whole(store, task)) for setting, task in planned])
+    results = [
+        (setting, task, _whole(store, task)) for setting, task in planned if task.key not in failed
+    ]
+    return cases_of(results), list(failed.values())
 
 
 def _whole(store: Store, task: Task) -> Figures:
@@ -82,8 +93,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = _parser()
     chosen = parser.parse_args(arguments)
-    if chosen.runs < 1:
-        parser.error(f'--runs must be at least 1, got {chosen.runs}')
     try:
         planned = _plan(chosen)
         store = Store(chosen.output)
@@ -92,7 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with _terminate_as_interrupt():
             crew = crew_of(chosen.jobs, chosen.dask)
-            cases = sweep(planned, store, crew, chosen.quiet)
+            cases, failed = sweep(planned, store, crew, chosen.quiet)
     except KeyboardInterrupt:
         done = sum(store.read(task) is not None for _, task in planned)
         print(f'sweep: stopped; {done} of {len(planned)} runs are kept in {chosen.output}, the '
@@ -101,8 +110,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (SweepFailed, OSError) as error:
         print(f'sweep: {error}', file=sys.stderr)
         return 1
-    _report(cases, chosen)
-    return 0
+    if cases:
+        _report(cases, chosen)
+    for why in failed:
+        print(f'sweep: {why}', file=sys.stderr)
+    if failed:
+        print(f'sweep: {len(failed)} of {len(planned)} runs failed; the same command tries them '
+              'again', file=sys.stderr)  # fmt: skip
+    return int(bool(failed))
 
 
 def _report(cases: list[Case], chosen: argparse.Namespace) -> None:
@@ -111,6 +126,7 @@ def _report(cases: list[Case], chosen: argparse.Namespace) -> None:
     write_whole(chosen.output / 'summary.txt', text + '\n')
     if chosen.picture is not None:
         pictures = import_module('tracking_tools.sweeping.picture')  # matplotlib takes long
+        chosen.picture.parent.mkdir(parents=True, exist_ok=True)
         pictures.draw_sweep(cases, chosen.picture, chosen.figure)
     print(text)
 
@@ -127,10 +143,15 @@ def _plan(chosen: argparse.Namespace) -> Planned:
     for setting in settings:
         configure(sensor.configs, {**fixed, **setting})
     sources = [source_of(name, chosen.duration) for name in chosen.sources]
+    check_apart(sources)
+    Topics.remapped(chosen.remap, sensor)  # says what is wrong with a rule
     yardstick = yardstick_of(chosen, chosen.sensor)
     return list(
-        tasks_of(sources, chosen.runs, settings, fixed, chosen.sensor, yardstick, _version())
-    )
+        tasks_of(
+            sources, chosen.runs, settings, fixed, chosen.sensor, yardstick, _version(),
+            chosen.remap,
+        )
+    )  # fmt: skip
 
 
 def _version() -> str:
@@ -166,12 +187,14 @@ def _parser() -> argparse.ArgumentParser:
         help='names as of simulate, or bags with truth',
     )
     add('--set', action='append', default=[], metavar='NAME=V1,V2', help='values of a parameter')
-    add('--runs', type=int, default=1, metavar='N', help='of each scenario, seeds 1 to N')
+    add('--runs', type=count, default=1, metavar='N', help='of each scenario, seeds 1 to N')
     add('--output', type=Path, required=True, metavar='DIR', help='kept, and gone on with')
     add('--sensor', choices=SENSORS, default='radar', help='default radar')
     add('--params', type=Path, metavar='FILE', help='parameter file in ROS form (YAML)')
-    add('--duration', type=float, metavar='S', help='of the scenarios [s]')
-    add('--jobs', type=int, default=cores(), metavar='N', help='processes; default: all cores')
+    add('--remap', action='append', default=[], metavar='FROM:=TO',
+        help='topics of recordings, as plots:=/radar/plots')  # fmt: skip
+    add('--duration', type=positive, metavar='S', help='of the scenarios [s]')
+    add('--jobs', type=count, default=cores(), metavar='N', help='processes; default: all cores')
     add('--dask', metavar='ADDRESS', help='of a Dask scheduler whose workers do it instead')
     add(
         '--picture',

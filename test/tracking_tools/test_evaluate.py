@@ -170,7 +170,6 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
     ),
     'empty_tracks': ({**FINE, RADAR: {}}, 'no messages'),
     'empty_truth': ({**FINE, '/truth': {}}, '/truth has no rows'),
-    'no_confirmed': ({**FINE, RADAR: {0: tracks_at(0, {})}}, 'no confirmed track'),
     'other_time': (
         {**FINE, '/truth': {k: truth_at(k, {1: (0.0, 0.0)}) for k in range(90, 99)}},
         'no time in common',
@@ -190,6 +189,22 @@ def test_evaluate_says_what_is_missing(
     assert capsys.readouterr().err.startswith('evaluate: ')
     with pytest.raises(ValueError, match=reason):
         evaluate(bag, bag)
+
+
+@pytest.mark.parametrize('tables', [{0: {}}, {0: {5: (0.0, 0.0)}}])
+def test_evaluate_judges_recordings_without_confirmed_tracks(
+    tables: dict[int, Any], make_bag: MakeBag, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Whatever rows there are: nothing was held, all contacts were missed."""
+    rows = {k: tracks_at(k, places) for k, places in tables.items()}
+    for table in rows.values():
+        table['status'][:] = 0
+    bag = make_bag('bag', {**FINE, RADAR: rows})
+    judgement = evaluate(bag, bag)
+    assert (judgement.held.coverage, judgement.tracks) == (0.0, 0)
+    assert judgement.gospa.missed > 0.0
+    assert main([str(bag), '--truth', str(bag)]) == 0
+    assert '0 confirmed tracks' in capsys.readouterr().out
 
 
 def test_evaluate_refuses_another_frame(make_bag: MakeBag) -> None:

@@ -168,7 +168,10 @@ def test_bag_topics_are_absolute(tmp_path):
         (['tuns', '--output', 'x'], "no scenario 'tuns'; did you mean 'turns'?"),
         (['turns'], 'either --output BAG or --live'),
         (['turns', '--output', '.'], 'exists already'),
-        (['turns', '--output', 'x', '--duration', '-3'], 'must be above 0 s, got -3.0'),
+        (
+            ['turns', '--output', 'x', '--duration', '-3'],
+            '--duration: must be a number above 0, got -3',
+        ),
         (['z0', '--output', 'x', '--sectors', '2'], 'must be 1 for a staring radar'),
     ],
 )

@@ -6,16 +6,19 @@ from collections.abc import Callable
 import json
 import math
 from pathlib import Path
+import shutil
 
 import numpy as np
 import pytest
 
 from tracking_tools.evaluate import main as evaluate
 from tracking_tools.sweep import main
+from tracking_tools.sweeping import crew
 from tracking_tools.sweeping.figures import mean_of, SHOWN
 from tracking_tools.sweeping.store import Store
 from tracking_tools.sweeping.table import Case
 from tracking_tools.sweeping.tasks import settings_of, swept_values, Task
+from tracking_tools.sweeping.work import work
 
 TINY = ('crossing', '--duration', '20', '--jobs', '1', '--quiet')
 TWO = ('--runs', '2', '--set', 'sensor.detection_probability=0.7,0.9')
@@ -99,7 +102,13 @@ def test_evaluate_with_runs_is_a_sweep_without_settings(tmp_path: Path) -> None:
         (['crossing', '--set', 'asociation=jpda'], 'did you mean association'),
         (['crossing', '--set', 'association=jpda,none'], 'must be one of'),
         (['crossing', '--set', 'association'], 'name=value'),
-        (['crossing', '--runs', '0'], '--runs must be at least 1, got 0'),
+        (['crossing', '--runs', '0'], '--runs: must be a whole number from 1 on, got 0'),
+        (['crossing', '--jobs', '0'], '--jobs: must be a whole number from 1 on, got 0'),
+        (['crossing', '--duration', 'nan'], '--duration: must be a number above 0, got nan'),
+        (['crossing', 'crossing'], 'crossing is there twice'),
+        (['crossing', '--set', 'association=jpda,pda,jpda'], 'association has jpda twice'),
+        (['crossing', '--set', 'association=pda', '--set', 'association=jpda'], 'once'),
+        (['crossing', '--remap', 'points:=/a'], 'FROM one of plots'),
     ],
 )
 def test_sweep_refuses_before_the_first_run(
@@ -112,24 +121,68 @@ def test_sweep_refuses_before_the_first_run(
     assert not (tmp_path / 'none').exists()
 
 
-def test_sweep_names_the_run_that_failed(
+def test_sweep_names_the_runs_that_failed_and_does_the_others(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The first result is kept, and the message says which run went wrong."""
-    from tracking_tools.sweeping import crew  # noqa: PLC0415 (patched here only)
+    """All that can be done is done and shown; differences are between the runs of both."""
 
-    def work(task: Task) -> str:
-        if task.seed == 2:
+    def fail(task: Task) -> str:
+        if task.seed == 2 and dict(task.values)['sensor.detection_probability'] == 0.7:
             raise ValueError('no plots')
-        return '{}'
+        return work(task)
 
-    monkeypatch.setattr(crew, 'work', work)
+    monkeypatch.setattr(crew, 'work', fail)
     assert main([*TINY, *TWO, '--output', str(tmp_path)]) == 1
-    assert (
-        'crossing, seed 2, sensor.detection_probability=0.7: ValueError: no plots'
-        in capsys.readouterr().err
-    )
-    assert len(results(tmp_path)) == 1
+    said = capsys.readouterr()
+    assert 'crossing, seed 2, sensor.detection_probability=0.7: ValueError: no plots' in said.err
+    assert '1 of 4 runs failed; the same command tries them again' in said.err
+    assert len(results(tmp_path)) == 3
+    summary = json.loads((tmp_path / 'summary.json').read_text())
+    assert [row['runs'] for row in summary] == [1, 2]
+    assert summary[1]['gospa_less_first']['runs'] == 1
+
+
+def test_sweep_takes_a_setting_with_which_nothing_is_tracked(tmp_path: Path) -> None:
+    """That is a result: nothing is held."""
+    bad = ['--set', 'sensor.range_max=1000,40000', '--output', str(tmp_path)]
+    assert main([*TINY, *bad]) == 0
+    summary = json.loads((tmp_path / 'summary.json').read_text())
+    assert summary[0]['means']['held']['mean'] == 0.0
+
+
+def test_sweep_knows_a_run_by_its_values_in_any_order_and_form(tmp_path: Path) -> None:
+    """What is done is not done again, whether a value is the only one or one of several."""
+    one = ['--set', 'sensor.range_max=40000', '--set', 'association=pda']
+    assert main([*TINY, *one, '--output', str(tmp_path)]) == 0
+    row = json.loads((tmp_path / 'summary.json').read_text())[0]
+    assert row['fixed'] == {'association': 'pda', 'sensor.range_max': 40000.0}
+    assert 'all with association=pda' in (tmp_path / 'summary.txt').read_text()
+    two = ['--set', 'association=pda,jpda', '--set', 'sensor.range_max=40000.0']
+    assert main([*TINY, *two, '--output', str(tmp_path)]) == 0
+    assert len(results(tmp_path)) == 2
+
+
+def test_sweep_takes_recordings_with_topics_of_their_own(
+    cut_bag: Callable[[int], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Rules say where plots and truth are; a topic that is not there is named."""
+    bag = str(cut_bag(6))
+    rules = ['--remap', 'plots:=/plots', '--remap', 'truth:=/truth']
+    given = [bag, '--jobs', '1', '--quiet', '--output', str(tmp_path)]
+    assert main([*given, *rules]) == 0
+    assert main([*given, '--remap', 'plots:=/my_radar/points']) == 1
+    assert '/my_radar/points' in capsys.readouterr().err
+
+
+def test_sweep_refuses_a_recording_that_is_there_twice(
+    cut_bag: Callable[[int], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A copy is the same recording: it would make the interval of the mean too small."""
+    bag, copy = cut_bag(6), tmp_path / 'copy'
+    shutil.copytree(bag, copy)
+    with pytest.raises(SystemExit, match='2'):
+        main([str(bag), str(copy), '--output', str(tmp_path / 'none')])
+    assert 'are the same recording' in capsys.readouterr().err
 
 
 def test_settings_of_are_all_combinations() -> None:

@@ -17,7 +17,7 @@ from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Floats
 from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.evaluation.recorded import Recorded
-from tracking_tools.evaluation.rows import bearing_rows, NEEDED, position_rows
+from tracking_tools.evaluation.rows import bearing_rows, NEEDED, no_rows, position_rows
 from tracking_tools.evaluation.truths import bearings_of, positions_of, ranges_of
 from tracking_tools.own_ship import read_platform
 from tracking_tools.replay_topics import inventory, Topics
@@ -134,8 +134,7 @@ def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tupl
     missing = [name for name in needed if table and name not in table]
     if missing:
         raise BadBag(f'{bag}: {topics.tracks} has no column {", ".join(missing)}')
-    if not table or not (table['status'] == CONFIRMED).any():
-        raise BadBag(f'{bag}: {topics.tracks} has {len(stamps)} messages, but no confirmed track')
+    table = table or no_rows(needed)
     confirmed = choose(table, table['status'] == CONFIRMED)
     order = np.argsort(confirmed['stamp'], kind='stable')
     return choose(confirmed, order), np.unique(stamps)

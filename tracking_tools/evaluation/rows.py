@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from msg_adapters.table import Columns
@@ -16,10 +18,17 @@ NEEDED = {
 }
 
 
+def no_rows(needed: Sequence[str]) -> Columns:
+    """Return a track table without rows; nothing was tracked, which is a result, too."""
+    columns: Columns = {name: np.zeros(0) for name in (*needed, 'stamp', 'time')}
+    return columns | {'covariance': np.zeros((0, 36))}
+
+
 def position_rows(table: Columns, stamps: Floats) -> TrackRows:
     """Return the rows of a radar's table; `stamps` (K,) are those of the scans [s]."""
     full = table['covariance'].reshape(-1, 6, 6)
-    d = 3 if np.isfinite(full[:, 2, 2]).all() else 2  # a radar without heights has none
+    has_heights = len(full) > 0 and np.isfinite(full[:, 2, 2]).all()
+    d = 3 if has_heights else 2
     state = np.stack([table[n] for n in ('x', 'y', 'z', 'vx', 'vy', 'vz')], axis=1)
     state = state.astype(np.float64)
     at = np.concatenate([np.arange(d), 3 + np.arange(d)])

@@ -184,6 +184,14 @@
     ys.setv({start: middle - half, end: middle + half});
   }
 
+  // Make the stage so many times as large about its middle, or move it by parts of its size.
+  function look(times, right, up) {
+    [[stage.x_range, right], [stage.y_range, isPlan ? up : 0]].forEach(([range, part]) => {
+      const size = range.end - range.start, middle = (range.start + range.end) / 2 + part * size;
+      range.setv({start: middle - times * size / 2, end: middle + times * size / 2});
+    });
+  }
+
   function follow(t) {
     const row = rowNow(state.chosen, t);
     if (row < 0) return;
@@ -279,6 +287,8 @@
     ' ': () => play(!state.playing), Home: () => seek(scans[0]), End: () => seek(end), Escape: () => choose(null),
     ArrowRight: (event) => step(event.shiftKey ? 10 : 1), ArrowLeft: (event) => step(event.shiftKey ? -10 : -1),
     ArrowDown: () => chooseNext(1), ArrowUp: () => chooseNext(-1),
+    '+': () => look(0.8, 0, 0), '-': () => look(1.25, 0, 0), 0: () => stage.reset.emit(),
+    a: () => look(1, -0.1, 0), d: () => look(1, 0.1, 0), w: () => look(1, 0, 0.1), s: () => look(1, 0, -0.1),
   };
 
   function chooseNext(count) {

@@ -8,6 +8,8 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import as_completed, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
 import multiprocessing
 import os
 import signal
@@ -20,13 +22,24 @@ from tqdm import tqdm
 from tracking_tools.sweeping.tasks import Task
 from tracking_tools.sweeping.work import work
 
-Done = Generator[tuple[Task, str], None, None]  # results as they come
+WORKERS_WAIT = 60.0  # for the first worker of a Dask scheduler [s]
+
+
+@dataclass(frozen=True)
+class RunFailed:
+    """What is there instead of the result of a run that cannot be done."""
+
+    why: str  # and which run it was
+
+
+Outcome = str | RunFailed
+Done = Generator[tuple[Task, Outcome], None, None]  # as they come
 Crew = Callable[[Sequence[Task]], Done]
 ORPHAN_CHECK = 1.0  # [s]
 
 
 class SweepFailed(RuntimeError):  # noqa: N818 (it is the sweep that has failed)
-    """A run that cannot be done; says which."""
+    """Nobody can do runs any more; says why."""
 
 
 def crew_of(jobs: int, scheduler: str | None) -> Crew:
@@ -46,9 +59,7 @@ def cores() -> int:
 def alone(tasks: Sequence[Task]) -> Done:
     """Do one task after the other, here."""
     for task in tasks:
-        with _naming(task):
-            text = work(task)
-        yield task, text
+        yield task, _outcome(task, partial(work, task))
 
 
 def by_processes(tasks: Sequence[Task], jobs: int) -> Done:
@@ -61,9 +72,7 @@ def by_processes(tasks: Sequence[Task], jobs: int) -> Done:
         futures = {pool.submit(work, task): task for task in tasks}
     try:
         for future in as_completed(futures):
-            with _naming(futures[future]):
-                text = future.result()
-            yield futures[future], text
+            yield futures[future], _outcome(futures[future], future.result)
     except BaseException:  # Ctrl-C above all: what runs is not waited for
         for process in list((pool._processes or {}).values()):  # no public way to end them
             process.terminate()
@@ -108,13 +117,11 @@ def by_dask(tasks: Sequence[Task], scheduler: str) -> Done:
     if not tasks:
         return
     distributed = _import_dask()
-    with distributed.Client(scheduler, set_as_default=False) as client:
+    with _connected(distributed, scheduler) as client:
         futures = {client.submit(work, task, key=task.key): task for task in tasks}
         try:
             for future in distributed.as_completed(futures, loop=client.loop):
-                with _naming(futures[future]):
-                    text = future.result()
-                yield futures[future], text
+                yield futures[future], _outcome(futures[future], future.result)
         finally:
             client.cancel(list(futures))
 
@@ -129,13 +136,29 @@ def _import_dask() -> Any:
 
 
 @contextmanager
-def _naming(task: Task) -> Iterator[None]:
-    """Say which task it was that failed."""
+def _connected(distributed: Any, scheduler: str) -> Iterator[Any]:
+    """Provide a client of the scheduler, which has a worker at least."""
     try:
-        yield
+        client = distributed.Client(scheduler, set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        raise SweepFailed(f'no Dask scheduler at {scheduler}: {error}') from error
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=WORKERS_WAIT)
+        except TimeoutError as error:
+            raise SweepFailed(
+                f'the Dask scheduler {scheduler} had no worker for {WORKERS_WAIT:.0f} s'
+            ) from error
+        yield client
+
+
+def _outcome(task: Task, result: Callable[[], str]) -> Outcome:
+    """Return the result of a task, or which one it was and why there is none."""
+    try:
+        return result()
     except BrokenProcessPool as error:
         raise SweepFailed(f'a process was ended from outside: {error}') from error
     except Exception as error:
         values = ', '.join(f'{name}={value}' for name, value in task.values)
         where = f'{task.source.name}, seed {task.seed}, {values or "defaults"}'
-        raise SweepFailed(f'{where}: {type(error).__name__}: {error}') from error
+        return RunFailed(f'{where}: {type(error).__name__}: {error}')

@@ -41,8 +41,17 @@ class Case:
 
     def beside(self, other: Case) -> Mean:
         """Return the GOSPA less that of another setting in the same runs."""
-        mine, theirs = (case.values(SHOWN['gospa']) for case in (self, other))
-        return mean_of([a - b for a, b in zip(mine, theirs, strict=True)])
+        mine, theirs = self._gospas(), other._gospas()
+        return mean_of([mine[run] - theirs[run] for run in mine if run in theirs])
+
+    def _gospas(self) -> dict[tuple[str, int], float]:
+        runs = [(task.source.name, task.seed) for task in self.tasks]
+        return dict(zip(runs, self.values(SHOWN['gospa']), strict=True))
+
+    @property
+    def fixed(self) -> dict[str, Any]:
+        """What is set in it besides, as in all others."""
+        return {name: v for name, v in self.tasks[0].values if name not in self.setting}
 
     def worst(self) -> list[int]:
         """Return which runs have the largest GOSPA, the worst first."""
@@ -74,7 +83,8 @@ def to_text(cases: Sequence[Case]) -> str:
                *(shown.named(sensor) for shown in SHOWN.values())]]  # fmt: skip
     losses += [line for case in cases for line in _losses(case)]
     note = 'means with the 95 % interval of the mean; differences run by run'
-    return '\n'.join([*_aligned(lines), note, '', *_aligned(losses)])
+    fixed = [f'all with {name}={value}' for name, value in cases[0].fixed.items()]
+    return '\n'.join([*fixed, *_aligned(lines), note, '', *_aligned(losses)])
 
 
 def _losses(case: Case) -> Iterator[list[str]]:
@@ -100,6 +110,7 @@ def to_json(cases: Sequence[Case]) -> str:
     rows: list[dict[str, Any]] = [
         {
             'setting': dict(case.setting),
+            'fixed': case.fixed,
             'runs': len(case.tasks),
             'means': {name: asdict(mean) for name, mean in case.means().items()},
             'gospa_less_first': asdict(case.beside(cases[0])),

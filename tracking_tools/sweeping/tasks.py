@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from msg_adapters.parameter_blocks import BadParameterFile
+from tracking_core.config import parameters
 from tracking_tools.evaluation import Yardstick
-from tracking_tools.parameter_file import parse_value
+from tracking_tools.parameter_file import configure, parse_value
 from tracking_tools.scenarios import build, SCENARIOS
+from tracking_tools.sensors import SENSORS
 
 Values = Mapping[str, Any]  # of parameters, by dotted name
 
@@ -44,6 +46,7 @@ class Task:
     values: tuple[tuple[str, Any], ...]  # of all parameters that are not left as they are
     yardstick: Yardstick
     version: str  # of this package
+    rules: tuple[str, ...] = ()  # where in a recording the messages are, plots:=/radar/plots
 
     @property
     def identity(self) -> dict[str, Any]:
@@ -85,14 +88,38 @@ def swept_values(texts: Sequence[str]) -> dict[str, list[Any]]:
     Return the values to try of each parameter, from texts as ``name=v1,v2``.
 
     A value may be a list in brackets: ``name=[0.2,2],[0.5,5]``.
+
+    Raises
+    ------
+    BadParameterFile
+        For a text of another form, and for a parameter or a value that is there twice.
+
     """
     swept: dict[str, list[Any]] = {}
     for text in texts:
         name, equals, values = text.partition('=')
         if not (name and equals and values):
             raise BadParameterFile(f'--set takes name=value,value, got {text!r}')
-        swept[name.strip()] = parse_value(f'[{values}]')
+        if name.strip() in swept:
+            raise BadParameterFile(f'--set {name} is there twice: give {name}=V1,V2 once')
+        tried = swept[name.strip()] = parse_value(f'[{values}]')
+        twice = [value for k, value in enumerate(tried) if value in tried[:k]]
+        if twice:
+            raise BadParameterFile(f'--set {name} has {twice[0]} twice')
     return swept
+
+
+def check_apart(sources: Sequence[Source]) -> None:
+    """Refuse with ValueError a source that is there twice: it would count as two."""
+    seen: dict[str, str] = {}
+    for source in sources:
+        other = seen.setdefault(source.digest or source.name, source.name)
+        if other != source.name:
+            raise ValueError(f'{other} and {source.name} are the same recording')
+    names = [source.name for source in sources]
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f'{name} is there twice')
 
 
 def settings_of(swept: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
@@ -102,11 +129,23 @@ def settings_of(swept: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
 
 def tasks_of(
     sources: Sequence[Source], runs: int, settings: Sequence[Values], fixed: Values, sensor: str,
-    yardstick: Yardstick, version: str,
+    yardstick: Yardstick, version: str, rules: Sequence[str] = (),
 ) -> Iterator[tuple[Values, Task]]:  # fmt: skip
-    """Yield each setting with each of its runs; a recording is run once, whatever the runs."""
+    """
+    Yield each setting with each of its runs; a recording is run once, whatever the runs.
+
+    The same values make the same task, in whatever order and form they were given.
+    """
     for setting in settings:
-        values = tuple({**fixed, **setting}.items())
+        values = tuple(sorted(_as_configured({**fixed, **setting}, sensor).items()))
         for source in sources:
-            for seed in range(1, runs + 1) if source.is_scenario else (0,):
-                yield setting, Task(source, seed, sensor, values, yardstick, version)
+            seeds = range(1, runs + 1) if source.is_scenario else (0,)
+            for seed in seeds:
+                yield setting, Task(source, seed, sensor, values, yardstick, version, tuple(rules))
+
+
+def _as_configured(values: Values, sensor: str) -> dict[str, Any]:
+    """Return the values in the types that the parameters have: 100 is 100.0 for a range."""
+    configs = configure(SENSORS[sensor].configs, values)
+    typed = {p.name: p.value for config in configs for p in parameters(config)}
+    return {name: typed.get(name, value) for name, value in values.items()}

@@ -13,6 +13,7 @@ from tracking_tools.evaluation import evaluate, Judgement
 from tracking_tools.evaluation.text import plain
 from tracking_tools.parameter_file import configure
 from tracking_tools.replay import replay
+from tracking_tools.replay_topics import Topics
 from tracking_tools.scenarios import build
 from tracking_tools.sensors import SENSORS
 from tracking_tools.simulate import record
@@ -33,8 +34,10 @@ def work(task: Task) -> str:
         recording, tracks = _recording(task, Path(folder)), Path(folder) / 'tracks'
         sensor = SENSORS[task.sensor]
         configs = configure(sensor.configs, dict(task.values))
-        replay(recording, tracks, configs, quiet=True, sensor=sensor)
-        judgement = evaluate(tracks, recording, task.yardstick, sensor=task.sensor)
+        rules = task.rules if not task.source.is_scenario else ()
+        topics = Topics.remapped(rules, sensor)
+        replay(recording, tracks, configs, topics, quiet=True, sensor=sensor)
+        judgement = evaluate(tracks, recording, task.yardstick, rules, task.sensor)
     result = {'task': task.identity, 'figures': _figures(judgement)}
     return json.dumps(result, indent=1, sort_keys=True, allow_nan=False) + '\n'
 
