@@ -238,3 +238,27 @@ def test_page_of_a_sonar_is_a_record_of_bearings(browser: Any, tmp_path: Path) -
     assert 'deg' in page.inner_text('#facts')
     assert not page.wrong
     page.close()
+
+
+def test_keys_zoom_and_move_the_map(page: Any) -> None:
+    """Plus and minus about the middle, letters by a tenth, 0 back to all of it."""
+    there = """(() => {
+        const {x_range: x, y_range: y} = contactTracks.models.stage;
+        return [x.start, x.end, y.start, y.end];
+    })()"""
+
+    def seen() -> list[float]:
+        return list(page.evaluate(there))
+
+    west, east, south, north = all_of_it = seen()
+    page.keyboard.press('+')
+    assert seen()[1] - seen()[0] == pytest.approx(0.8 * (east - west))
+    assert sum(seen()[:2]) == pytest.approx(west + east)
+    page.keyboard.press('-')
+    assert seen() == pytest.approx(all_of_it)
+    page.keyboard.press('d')
+    page.keyboard.press('w')
+    shift = 0.1 * (east - west), 0.1 * (north - south)
+    assert seen()[::2] == pytest.approx([west + shift[0], south + shift[1]])
+    page.keyboard.press('0')
+    page.wait_for_function(f'() => Math.abs({there}[0] - {west}) < 1', timeout=PATIENCE)
