@@ -33,6 +33,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
 from tracking_core.batches import Floats
+from tracking_tools.arguments import count
 from tracking_tools.testing import NodeProcess, private_domain, python_node, TrackerProbe
 
 ROOT = Path(__file__).parents[1]
@@ -150,8 +151,8 @@ def measure(contacts: int, number: int) -> Outcome:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog='latency', description=__doc__)
-    parser.add_argument('--contacts', type=int, nargs='+', default=[10, 200, 1000])
-    parser.add_argument('--messages', type=int, default=100, help='measured ones of each size')
+    parser.add_argument('--contacts', type=count, nargs='+', default=[10, 200, 1000])
+    parser.add_argument('--messages', type=count, default=100, help='measured ones of each size')
     parser.add_argument('--output', type=Path, metavar='FILE', help='write the page there, too')
     chosen = parser.parse_args(arguments)
     where, table = machine(), [HEAD]

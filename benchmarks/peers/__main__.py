@@ -19,6 +19,7 @@ from benchmarks.peers.picture import draw
 from benchmarks.peers.report import origin_text, Result, Results, sections
 from benchmarks.peers.rounds import play, sum_up
 from benchmarks.peers.shelf import keep, kept
+from tracking_tools.arguments import count
 
 TEMPLATE = Path(__file__).with_name('results.md')
 MINUTE = 60.0  # [s]
@@ -91,7 +92,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add('--peers', nargs='*', choices=ENTRANTS, metavar='NAME', help=f'of {", ".join(ENTRANTS)}')
     add('--scans', type=int, default=10_000, help='at most, of each run')
-    add('--runs', type=int, help='of each scene, instead of its own number')
+    add('--runs', type=count, help='of each scene, instead of its own number')
     add('--limit', type=float, default=120.0, metavar='S',
         help='CPU after which a tracker gets no more scans of a run (default 120)')  # fmt: skip
     add('--budget', type=float, default=12.0, metavar='MIN',

@@ -181,3 +181,14 @@ def test_report_command_says_what_is_missing(
     path = cut_bag(40) if bag == 'recording' else tmp_path / bag
     assert main([str(path), '--output', str(tmp_path / 'page.html')]) == 1
     assert re.match('report: .*(no bag at|has no topic)', capsys.readouterr().err)
+
+
+def test_report_command_refuses_plots_that_are_not_there(
+    replayed: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A bag of tracks has none: the page would have said where they are, and shown nothing."""
+    tracks = str(replayed / 'tracks')
+    page = tmp_path / 'page.html'
+    assert main([tracks, '--plots', tracks, '--output', str(page)]) == 1
+    assert 'has no topic /plots; it has /radar_tracker' in capsys.readouterr().err
+    assert not page.exists()
