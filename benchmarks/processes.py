@@ -21,3 +21,8 @@ def cpu_time(pid: int) -> float:
     """Return the processor time that a process has taken, all its threads [s]."""
     fields = Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()
     return (int(fields[_USER]) + int(fields[_SYSTEM])) / _TICKS
+
+
+def own_memory() -> float:
+    """Return the memory that this process holds [MB]."""
+    return round(resident(os.getpid()) / 1e6, 1)

@@ -16,7 +16,6 @@ import argparse
 from collections import Counter
 from dataclasses import dataclass, field
 import logging
-from pathlib import Path
 import time
 from types import SimpleNamespace
 from typing import Any
@@ -27,6 +26,7 @@ from benchmarks.column_faults import ODD_NUMBERS, ODD_TEXTS, Rng
 from benchmarks.healthy_scenes import HEALTHY, PERIOD, START
 from benchmarks.hostile_messages import spoil
 from benchmarks.message_faults import odd_stamp
+from benchmarks.processes import own_memory
 from msg_adapters.message_types import rosbags_types, seconds
 from msg_adapters.session import Session
 from msg_adapters.table import from_columns, to_columns
@@ -169,21 +169,15 @@ class Siege:
         assert len(np.unique(tracks.id)) == len(tracks)
 
 
-def resident() -> float:
-    """Return the memory that this process holds [MB]."""
-    pages = int(Path('/proc/self/statm').read_text(encoding='ascii').split()[1])
-    return round(pages * 4096e-6, 1)
-
-
 def besiege(siege: Siege, messages: int) -> list[float]:
     """Send so many hostile messages; return the memory [MB], eleven times on the way."""
     memory = []
     for number in range(messages):
         if number % max(messages // 10, 1) == 0:
-            memory.append(resident())
+            memory.append(own_memory())
         for _ in range(2 if siege.attack() else number % 2):
             siege.feed()
-    return [*memory, resident()]
+    return [*memory, own_memory()]
 
 
 def main() -> None:

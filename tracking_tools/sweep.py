@@ -9,21 +9,19 @@ from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
 import signal
 import sys
 from typing import Any
 
 from tqdm import tqdm
 
-from tracking_tools.arguments import count, file_to_write, positive
-from tracking_tools.evaluation.options import add_yardstick, yardstick_of
+from tracking_tools.evaluation.options import yardstick_of
 from tracking_tools.parameter_file import configure, read_parameter_file
 from tracking_tools.replay_topics import Topics
 from tracking_tools.sensors import SENSORS
 from tracking_tools.stopping import STOPPED
-from tracking_tools.sweeping.crew import cores, Crew, crew_of, RunFailed, SweepFailed
-from tracking_tools.sweeping.figures import SHOWN
+from tracking_tools.sweeping.crew import Crew, crew_of, RunFailed, SweepFailed
+from tracking_tools.sweeping.options import sweep_parser
 from tracking_tools.sweeping.store import Figures, Store, write_whole
 from tracking_tools.sweeping.table import Case, cases_of, to_json, to_text
 from tracking_tools.sweeping.tasks import (
@@ -91,7 +89,7 @@ def _whole(store: Store, task: Task) -> Figures:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = _parser()
+    parser = sweep_parser()
     chosen = parser.parse_args(arguments)
     try:
         planned = _plan(chosen)
@@ -173,39 +171,6 @@ def _terminate_as_interrupt() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGTERM, before)
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog='sweep', description='Track scenarios or recordings with many settings; judge them.'
-    )
-    add = parser.add_argument
-    add(
-        'sources',
-        nargs='+',
-        metavar='SCENARIO|BAG',
-        help='names as of simulate, or bags with truth',
-    )
-    add('--set', action='append', default=[], metavar='NAME=V1,V2', help='values of a parameter')
-    add('--runs', type=count, default=1, metavar='N', help='of each scenario, seeds 1 to N')
-    add('--output', type=Path, required=True, metavar='DIR', help='kept, and gone on with')
-    add('--sensor', choices=SENSORS, default='radar', help='default radar')
-    add('--params', type=Path, metavar='FILE', help='parameter file in ROS form (YAML)')
-    add('--remap', action='append', default=[], metavar='FROM:=TO',
-        help='topics of recordings, as plots:=/radar/plots')  # fmt: skip
-    add('--duration', type=positive, metavar='S', help='of the scenarios [s]')
-    add('--jobs', type=count, default=cores(), metavar='N', help='processes; default: all cores')
-    add('--dask', metavar='ADDRESS', help='of a Dask scheduler whose workers do it instead')
-    add(
-        '--picture',
-        type=file_to_write,
-        metavar='PNG',
-        help='draw a figure over the first parameter',
-    )
-    add('--figure', choices=SHOWN, default='gospa', help='which, default gospa')
-    add('--quiet', action='store_true', help='no progress')
-    add_yardstick(parser)
-    return parser
 
 
 if __name__ == '__main__':

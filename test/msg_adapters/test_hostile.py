@@ -23,7 +23,8 @@ from sonar_tracker.config import SensorConfig as SonarSensorConfig
 pytest.importorskip('rosbags')
 from benchmarks.healthy_scenes import contacts, HEALTHY, marks, START
 from benchmarks.hostile_messages import spoil
-from benchmarks.siege import besiege, resident, Siege, TYPES
+from benchmarks.processes import own_memory
+from benchmarks.siege import besiege, Siege, TYPES
 
 SHORT, LONG, MILLION = 200, 500_000, 1_000_000
 ROWS = 20_000
@@ -104,7 +105,7 @@ def test_adapters_stand_a_million_messages():
     readers = ((contacts, to_plots, SensorConfig()), (marks, to_bearings, SonarSensorConfig()))
     for number in range(MILLION):
         if number % (MILLION // 100) == 0:
-            memory.append(resident())
+            memory.append(own_memory())
         make, read, sensor = readers[number % 2]
         msg = spoil(make(START), START, 'here', rng).to_message(TYPES)
         try:

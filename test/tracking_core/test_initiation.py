@@ -10,9 +10,9 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from tracking_core.batches import Coverage, Seeds
-from tracking_core.birth import one_a_plot, with_speed_prior
+from tracking_core.birth import with_speed_prior
 from tracking_core.composition import Density
-from tracking_core.initiation import one_point, plane_start, Starts, two_point
+from tracking_core.initiation import one_point, plane_start, two_point
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.new_contacts import Odds, share_of_new
 
@@ -166,33 +166,3 @@ def test_with_speed_prior_equals_a_measurement_of_no_speed() -> None:
     assert_allclose(tamed.mean[0].reshape(4), x - K @ H @ x, rtol=1e-9)
     assert_allclose(tamed.covariance[0].reshape(4, 4), P - K @ H @ P, rtol=1e-9, atol=1e-9)
     assert with_speed_prior(starts, 0.0) is starts
-
-
-def test_one_a_plot_is_the_mixture_of_all_starts_of_the_plot() -> None:
-    """Moments by the share of each, existence that of any; a plot's only start stays as it is."""
-    rng = np.random.default_rng(3)
-    mean, root = rng.normal(size=(3, 2, 2)), rng.normal(size=(3, 4, 4))
-    P = root @ root.swapaxes(1, 2)
-    existence, plot = np.array([0.2, 0.5, 0.6]), np.array([4, 1, 4])
-    made = one_a_plot(Starts(mean, P.reshape(3, 2, 2, 2, 2), existence, plot, 2), 6)
-    assert_array_equal(made.plot, [1, 4])
-    assert_allclose(made.existence_probability, [0.5, 1.0 - 0.8 * 0.4])
-    assert_allclose(made.mean[0], mean[1])
-    assert_allclose(made.covariance[0].reshape(4, 4), P[1])
-    flat, share = mean.reshape(3, 4), np.array([0.25, 0.75])
-    centre = share @ flat[[0, 2]]
-    square = P[[0, 2]] + np.einsum('ka,kb->kab', flat[[0, 2]], flat[[0, 2]])
-    assert_allclose(made.mean[1].reshape(4), centre)
-    expected = np.einsum('k,kab->ab', share, square) - np.outer(centre, centre)
-    assert_allclose(made.covariance[1].reshape(4, 4), expected)
-
-
-def test_one_a_plot_takes_starts_that_are_sure() -> None:
-    """Nothing is divided by zero, and two sure ones are no surer than sure."""
-    made = one_a_plot(
-        Starts(
-            np.zeros((2, 1, 2)), np.ones((2, 1, 2, 1, 2)), np.ones(2), np.zeros(2, np.int64), 2
-        ),
-        1,
-    )
-    assert 1.0 - 1e-9 <= made.existence_probability[0] <= 1.0

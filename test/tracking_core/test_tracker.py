@@ -290,24 +290,3 @@ def test_reconfigure_keeps_the_tracks() -> None:
     assert_array_equal(tracker.tracks.id, before)
     tracker.track(replace(take(scene(4, 1)[0], slice(0, 0)), stamp=40.0))
     assert (tracker.tracks.existence_probability > 0.9).all()
-
-
-def test_contacts_side_by_side_are_confirmed_as_soon_as_one_alone() -> None:
-    """Each of their plots may follow four others: that makes no sixteen doubtful tracks."""
-    rng = np.random.default_rng(2)
-    abreast = 400.0 * np.arange(4.0)[:, None] * [0.0, 1.0] + [5_000.0, 5_000.0]
-    tracker = RadarTracker(
-        with_values(
-            CONFIG,
-            {
-                'scan.assembly': 'snapshot',
-                'sensor.position_sd': 100.0,
-                'clutter_density': 1e-9,
-            },
-        )
-    )
-    for scan in range(3):
-        place = abreast + [150.0 * 4.0 * scan, 0.0] + 100.0 * rng.standard_normal((4, 2))
-        message = Plots.cartesian(np.full(4, 4.0 * scan), place)
-        tracks = tracker.track(replace(message, stamp=4.0 * scan))
-    assert len(tracks) == tracks.confirmed.sum() == 4

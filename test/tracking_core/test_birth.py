@@ -1,0 +1,70 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""One new track a plot, though several earlier plots may be its contact's."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.testing import assert_allclose, assert_array_equal
+
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.tracker import RadarTracker
+from tracking_core.batches import Plots
+from tracking_core.birth import one_a_plot
+from tracking_core.config import with_values
+from tracking_core.initiation import Starts
+
+
+def test_one_a_plot_is_the_mixture_of_all_starts_of_the_plot() -> None:
+    """Moments by the share of each, existence that of any; a plot's only start stays as it is."""
+    rng = np.random.default_rng(3)
+    mean, root = rng.normal(size=(3, 2, 2)), rng.normal(size=(3, 4, 4))
+    P = root @ root.swapaxes(1, 2)
+    existence, plot = np.array([0.2, 0.5, 0.6]), np.array([4, 1, 4])
+    made = one_a_plot(Starts(mean, P.reshape(3, 2, 2, 2, 2), existence, plot, 2), 6)
+    assert_array_equal(made.plot, [1, 4])
+    assert_allclose(made.existence_probability, [0.5, 1.0 - 0.8 * 0.4])
+    assert_allclose(made.mean[0], mean[1])
+    assert_allclose(made.covariance[0].reshape(4, 4), P[1])
+    flat, share = mean.reshape(3, 4), np.array([0.25, 0.75])
+    centre = share @ flat[[0, 2]]
+    square = P[[0, 2]] + np.einsum('ka,kb->kab', flat[[0, 2]], flat[[0, 2]])
+    assert_allclose(made.mean[1].reshape(4), centre)
+    expected = np.einsum('k,kab->ab', share, square) - np.outer(centre, centre)
+    assert_allclose(made.covariance[1].reshape(4, 4), expected)
+
+
+def test_one_a_plot_takes_starts_that_are_sure() -> None:
+    """Nothing is divided by zero, and two sure ones are no surer than sure."""
+    made = one_a_plot(
+        Starts(
+            np.zeros((2, 1, 2)), np.ones((2, 1, 2, 1, 2)), np.ones(2), np.zeros(2, np.int64), 2
+        ),
+        1,
+    )
+    assert 1.0 - 1e-9 <= made.existence_probability[0] <= 1.0
+
+
+def test_contacts_side_by_side_are_confirmed_as_soon_as_one_alone() -> None:
+    """Each of their plots may follow four others: that makes no sixteen doubtful tracks."""
+    rng = np.random.default_rng(2)
+    abreast = 400.0 * np.arange(4.0)[:, None] * [0.0, 1.0] + [5_000.0, 5_000.0]
+    tracker = RadarTracker(
+        with_values(
+            RadarTrackerConfig(),
+            {
+                'scan.assembly': 'snapshot',
+                'sensor.position_sd': 100.0,
+                'sensor.range_max': 40_000.0,
+                'initiation.speed_max': 300.0,
+                'clutter_density': 1e-9,
+            },
+        )
+    )
+    for scan in range(3):
+        place = abreast + [150.0 * 4.0 * scan, 0.0] + 100.0 * rng.standard_normal((4, 2))
+        message = Plots.cartesian(np.full(4, 4.0 * scan), place)
+        tracks = tracker.track(replace(message, stamp=4.0 * scan))
+    assert len(tracks) == tracks.confirmed.sum() == 4
