@@ -41,8 +41,7 @@ PERIOD, HOUR = 4.0, 3600.0  # s
 ALIVE, STAY, CLUTTER = 40.0, 1200.0, 15.0  # contacts, s each, false plots a turn
 CROWD, CROWD_TURNS, SPANS = 10_000, 100, 10  # contacts; turns of a span, and how many
 BEGIN = 1_700_000_000.0  # s, stamp of the first turn
-GROWTH, DRIFT = 0.02, 0.10  # of memory; of the cost of a turn
-CROWDED, CROWD_TREND = 0.15, 0.10  # peaks and growth in a crowd: megabytes come and go
+GROWTH, CROWDED, DRIFT = 0.02, 0.10, 0.10  # of memory, its peaks in a crowd; cost of a turn
 MAX_ROWS = 100_000
 PATIENCE = 120.0  # s for an answer: the transport takes megabytes slowly on a busy machine
 AGAIN = 20.0  # s until a turn is sent once more; a turn that comes twice is two for the tracker
@@ -134,8 +133,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         log = Path(folder, 'node.log')
         watch = crowd(log) if given.crowd else day(given.hours, log)
     print(watch.verdict())
-    peak, trend = (CROWDED, CROWD_TREND) if given.crowd else (GROWTH, GROWTH)
-    has_grown = watch.growth > peak or watch.trend > trend
+    has_grown = watch.growth > (CROWDED if given.crowd else GROWTH) or watch.trend > GROWTH
     return int(has_grown or watch.drift > DRIFT or watch.again > 0)
 
 

@@ -55,7 +55,7 @@ def put(batch: Batch, rows: NDArray[Any], part: Batch) -> Batch:
 
 
 def change(batch: Batch, **columns: Any) -> Batch:
-    """Return what `dataclasses.replace` returns, in a quarter of its time."""
+    """Return what `dataclasses.replace` returns, in half its time."""
     kind: Any = type(batch)
     old = vars(batch)
     return cast('Batch', _batch(kind, {**{name: old[name] for name in _names(kind)}, **columns}))

@@ -28,7 +28,6 @@ from benchmarks.siege import besiege, Siege, TYPES
 
 SHORT, LONG, MILLION = 200, 500_000, 1_000_000
 ROWS = 20_000
-LOST = 10  # tracks in half a million messages: lies that are where a contact might have flown
 GROWTH = 1.02  # of memory from a tenth of the way to the end: caches of Python and numpy
 anything = st.floats(allow_nan=True, allow_infinity=True, width=64)
 column = st.lists(anything, min_size=5, max_size=5).map(np.array)
@@ -58,12 +57,12 @@ def test_session_stands_a_siege(sensor, parameters):
 @pytest.mark.soak
 @pytest.mark.parametrize('sensor', HEALTHY)
 def test_session_stands_a_long_siege(sensor):
-    """The same half a million times; hardly a lie costs a track, and memory stays what it was."""
+    """The same half a million times for each sensor, and memory stays what it was."""
     siege = Siege(sensor, np.random.default_rng(1))
     memory = besiege(siege, LONG)
     print(f'\n{sensor}: {LONG} hostile messages, {dict(siege.outcomes)}, memory [MB] {memory}')
-    assert siege.outcomes['tracks lost'] <= LOST
-    assert np.median(memory[6:]) <= GROWTH * max(memory[1:6])
+    assert siege.outcomes['tracks lost'] == 0
+    assert memory[-1] <= GROWTH * memory[1]
 
 
 @pytest.mark.parametrize('seed', range(30))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.endurance import CROWD, crowd, CROWD_TREND, CROWDED, day, DRIFT, GROWTH
+from benchmarks.endurance import CROWD, crowd, CROWDED, day, DRIFT, GROWTH
 
 LITTLE = 0.03  # of memory: an hour is 40 turns here, so that buffers still fill in the second
 
@@ -38,6 +38,6 @@ def test_node_does_not_grow_with_ten_thousand_tracks(tmp_path):
     print(watch.verdict())
     assert watch.confirmed > 0.98 * CROWD
     assert watch.growth < CROWDED
-    assert watch.trend < CROWD_TREND
+    assert watch.trend < GROWTH
     assert watch.drift < DRIFT
     assert watch.again == 0
