@@ -17,7 +17,7 @@ from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
 from tracking_tools.evaluation import judge, Judgement, Yardstick
 from tracking_tools.evaluation.reading import read_tracks
-from tracking_tools.replay_topics import DIAGNOSTICS, inventory, Topics
+from tracking_tools.replay_topics import check_topics, DIAGNOSTICS, Topics
 from tracking_tools.scene import read_scene, Scene
 from tracking_tools.sensors import Configs, SENSORS
 
@@ -86,7 +86,9 @@ def gather(
         If there is nothing to show, or no plots or truth where they were promised.
 
     """
-    _check_plots(sources)
+    if sources.plots is not None:
+        with open_bag(sources.plots) as bag:
+            check_topics(bag, sources.topics, sources.plots)
     topics, usual = sources.topics, SENSORS[sources.kind].configs
     scene = _read_scene(sources, configs or usual)
     published = scene.published if isinstance(scene, Scene) else scene.tracks
@@ -110,17 +112,6 @@ def of_replay(kind: str, topics: Topics, recording: Path, tracks: Path) -> Sourc
     with open_bag(recording) as bag:
         truth = recording if topics.truth in bag.topics else None
     return Sources(kind, topics, tracks, recording, truth)
-
-
-def _check_plots(sources: Sources) -> None:
-    if sources.plots is None:
-        return
-    with open_bag(sources.plots) as bag:
-        if sources.topics.plots not in bag.topics:
-            raise BadBag(
-                f'{sources.plots} has no topic {sources.topics.plots}; it has {inventory(bag)}. '
-                f'Say which has the plots with --remap {sources.topics.sensor}:=/TOPIC'
-            )
 
 
 def _read_scene(sources: Sources, configs: Configs) -> Scene | BearingScene:
