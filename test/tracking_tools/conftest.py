@@ -13,6 +13,7 @@ import pytest
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.table import from_columns
 from tracking_tools.bags import BagWriter, open_bag
+from tracking_tools.scoring import TrackRows, Truth
 
 DEMO = Path(__file__).parents[2] / 'demo' / 'terminal_area'
 
@@ -57,3 +58,37 @@ def plots_message() -> Callable[..., Any]:
         return from_columns(arrays, time, 'radar', rosbags_types())
 
     return plots_message
+
+
+@pytest.fixture(scope='session')
+def random_scene() -> Callable[[int], tuple[TrackRows, Truth]]:
+    """
+    Return a function that makes tracks and truth of 30 scans for a seed.
+
+    Six targets that come and go; tracks with errors, gaps, doubles, a false one.
+    """
+
+    def scene(seed: int) -> tuple[TrackRows, Truth]:
+        rng = np.random.default_rng(seed)
+        samples, said = [], []
+        for target in range(6):
+            first, last = rng.integers(0, 8), rng.integers(20, 30)
+            start, velocity = rng.uniform(-60.0, 60.0, 2), rng.uniform(-4.0, 4.0, 2)
+            for k in range(first, last + 1):
+                place = start + k * velocity
+                samples.append([target, k, *place, *velocity])
+                for double in range(1 + (target == 3)):
+                    if rng.uniform() < 0.85:
+                        track = 10 * target + double + 100 * (k > 14)
+                        error = rng.normal(0.0, [6.0, 6.0, 1.0, 1.0])
+                        said.append([k, track, *(np.array([*place, *velocity]) + error)])
+        said += [[k, 999, *rng.uniform(-60.0, 60.0, 2), 0.0, 0.0] for k in range(4, 20)]
+        table, real = np.array(sorted(said)), np.array(samples)
+        root = rng.normal(0.0, 1.0, (len(table), 4, 4)) + 5.0 * np.eye(4)
+        rows = TrackRows(
+            table[:, 0].astype(int), table[:, 1].astype(int), table[:, 0], table[:, 2:4],
+            table[:, 4:], root @ root.transpose(0, 2, 1),
+        )  # fmt: skip
+        return rows, Truth.of(real[:, 0].astype(int), real[:, 1], real[:, 2:4], real[:, 4:])
+
+    return scene

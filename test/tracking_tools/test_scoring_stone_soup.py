@@ -11,9 +11,10 @@ import numpy as np
 from numpy.testing import assert_allclose
 import pytest
 
-from tracking_tools.scoring import Matches, Targets, track_error, TrackRows, Truth
+from tracking_core.rows import take
+from tracking_tools.scoring import continuity, Matches, Targets, track_error, TrackRows, Truth
 from tracking_tools.scoring.gospa import gospa_of_distances
-from tracking_tools.scoring.matching import candidates
+from tracking_tools.scoring.matching import candidates, choose_pairs
 from tracking_tools.scoring.ospa import distances_of_scans, ospa_of_distances
 from tracking_tools.scoring.siap import nearest, siap
 
@@ -21,6 +22,7 @@ pytest.importorskip('stonesoup', reason='Stone Soup (extra peers) is not install
 
 from stonesoup.dataassociator.tracktotrack import TrackToTruth
 from stonesoup.measures import Euclidean
+from stonesoup.metricgenerator.clearmotmetrics import ClearMotMetrics
 from stonesoup.metricgenerator.manager import MultiManager
 from stonesoup.metricgenerator.ospametric import GOSPAMetric, OSPAMetric
 from stonesoup.metricgenerator.tracktotruthmetrics import SIAPMetrics
@@ -30,34 +32,10 @@ from stonesoup.types.state import GaussianState
 from stonesoup.types.time import CompoundTimeRange, TimeRange
 from stonesoup.types.track import Track
 
-SCANS, CUTOFF = 30, 25.0
+SCANS, CUTOFF = 30, 25.0  # as in random_scene
 BEGIN = datetime(2026, 1, 1)
 PLACE, SPEED = [0, 1], [2, 3]
 TOLERANCE = 1e-9  # both compute in double precision, in another order
-
-
-def scene(seed: int) -> tuple[TrackRows, Truth]:
-    """Six targets that come and go; tracks with errors, gaps, doubles, a false one."""
-    rng = np.random.default_rng(seed)
-    samples, said = [], []
-    for target in range(6):
-        first, last = rng.integers(0, 8), rng.integers(20, SCANS)
-        start, velocity = rng.uniform(-60.0, 60.0, 2), rng.uniform(-4.0, 4.0, 2)
-        for k in range(first, last + 1):
-            place = start + k * velocity
-            samples.append([target, k, *place, *velocity])
-            for double in range(1 + (target == 3)):
-                if rng.uniform() < 0.85:
-                    track = 10 * target + double + 100 * (k > 14)
-                    error = rng.normal(0.0, [6.0, 6.0, 1.0, 1.0])
-                    said.append([k, track, *(np.array([*place, *velocity]) + error)])
-    said += [[k, 999, *rng.uniform(-60.0, 60.0, 2), 0.0, 0.0] for k in range(4, 20)]
-    table, real = np.array(sorted(said)), np.array(samples)
-    rows = TrackRows(
-        table[:, 0].astype(int), table[:, 1].astype(int), table[:, 0], table[:, 2:4],
-        table[:, 4:], np.tile(np.eye(4), (len(table), 1, 1)),
-    )  # fmt: skip
-    return rows, Truth.of(real[:, 0].astype(int), real[:, 1], real[:, 2:4], real[:, 4:])
 
 
 def at(scan: float) -> datetime:
@@ -104,9 +82,9 @@ def associations(on: Matches, tracks: dict[int, Any], paths: dict[int, Any]) -> 
 
 
 @pytest.fixture(params=range(5))
-def compared(request: pytest.FixtureRequest) -> Any:
+def compared(request: pytest.FixtureRequest, random_scene: Any) -> Any:
     """Return rows, truth, candidates and targets of one random scene."""
-    rows, truth = scene(request.param)
+    rows, truth = random_scene(request.param)
     starts = np.arange(SCANS + 1.0)
     near = candidates(rows, truth, CUTOFF, 0.0)
     return rows, truth, near, Targets.of_truth(truth, starts)
@@ -164,6 +142,26 @@ def test_siap_is_that_of_stone_soup(compared: Any) -> None:
                  'velocity_accuracy'):  # fmt: skip
         their = theirs[f'SIAP {name.replace("_", " ").title()}']
         assert_allclose(getattr(ours, name), their, rtol=TOLERANCE)
+
+
+def test_held_and_switches_add_up_to_their_clear_mot(compared: Any) -> None:
+    """MOTA counts misses, false rows and switches from one scan to the next; MOTP is distance."""
+    rows, truth, near, targets = compared
+    pairs, tracks, paths = choose_pairs(near, CUTOFF), their_tracks(rows), their_truth(truth)
+    generator = ClearMotMetrics(distance_measure=Euclidean(mapping=PLACE))
+    manager = MultiManager([generator])
+    manager.add_data({'tracks': set(tracks.values()), 'groundtruth_paths': set(paths.values())})
+    manager.association_set = associations(pairs, tracks, paths)
+    theirs = {metric.title: metric.value for metric in generator.compute_metric(manager)}
+    at_once = sum(
+        int((np.diff(mine.track)[np.diff(mine.scan) == 1] != 0).sum())
+        for mine in (take(pairs, pairs.target == target) for target in range(6))
+    )
+    held = continuity(rows, pairs, np.unique(near.track), targets).held
+    wrong = (1.0 - held) * len(truth.id) + len(rows) - len(pairs) + at_once
+    assert at_once > 0
+    assert_allclose(1.0 - wrong / len(truth.id), theirs['MOTA'], rtol=TOLERANCE)
+    assert_allclose(pairs.distance.mean(), theirs['MOTP'], rtol=TOLERANCE)
 
 
 def test_rmse_is_that_of_their_distances(compared: Any) -> None:
