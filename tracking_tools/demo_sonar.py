@@ -9,15 +9,12 @@ import sys
 
 import numpy as np
 
-from msg_adapters.message_types import rosbags_types
-from tracking_tools.bags import BagWriter, nanoseconds
+from tracking_tools import simulate
 from tracking_tools.bearing_picture import draw, NEAR
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
 from tracking_tools.crossings import Crossing, find_crossings, find_hearings, Hearing
 from tracking_tools.demo import Demo, ROOT, run
 from tracking_tools.replay_topics import Topics
-from tracking_tools.scenarios.listening import listen
-from tracking_tools.scenarios.messages import EPOCH
 from tracking_tools.scenarios.watches import long_watch
 from tracking_tools.sensors import Configs, SENSORS
 
@@ -30,10 +27,7 @@ TITLE = 'Sonar bearings to tracks: two contacts cross, heard as one'
 def record(path: Path) -> None:
     """Write the bag of the demo: what a ship with a passive array hears in 45 minutes."""
     print('simulating what the array hears ...', flush=True)
-    with BagWriter(path, compress=True) as bag:
-        for sent in listen(long_watch(), rosbags_types()):
-            for topic, msg, time in sent:
-                bag.write(topic, msg, nanoseconds(EPOCH + time))
+    simulate.record(long_watch(), path, compress=True)
 
 
 def report(scene: BearingScene, tracks: Path, topic: str, picture: Path) -> str:

@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How a scenario is published live, as a radar would send it."""
+"""How a scene is published live, as a radar or a sonar would send it."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ from rclpy.qos import QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import try_shutdown
-from sensor_msgs.msg import PointCloud2
 
 from msg_adapters.message_types import rclpy_types
-from tracking_tools.scenarios.messages import PLOTS, send, Sent, TRUTH
-from tracking_tools.scenarios.plots import Scenario
+from tracking_tools.scenarios.broadcast import Broadcast, broadcast, Scene
+from tracking_tools.scenarios.messages import Sent
 
 # Longest wait for readers to confirm the last messages [s].
 _FAREWELL = 2.0
@@ -28,55 +27,54 @@ _FAREWELL = 2.0
 _ATTENTION = 0.1
 
 
-class SimulatedRadar(Node):
+class SimulatedSensor(Node):
     """
-    A scenario on the air.
+    A scene on the air.
 
-    Publishers: ``plots`` and ``truth`` (sensor_msgs/PointCloud2, reliable, keep last 10). Stamps
-    begin with the first message's time and advance with the scenario, whatever the rate.
+    Publishers: those of the broadcast, for a radar ``plots`` and ``truth``, for a sonar
+    ``ownship``, ``bearings`` and ``truth`` (reliable, keep last 10). Stamps begin with the first
+    message's time and advance with the scene, whatever the rate.
 
     Parameters
     ----------
-    scenario : Scenario
-    sectors : int
-        Messages in a turn.
+    air : Broadcast
+        What is sent.
     rate : float
         Times real time.
     wait : bool
-        Whether to begin only when somebody listens to ``plots``.
+        Whether to begin only when somebody listens to the plots.
+    about : str
+        What it is, for the log.
 
     """
 
-    def __init__(self, scenario: Scenario, sectors: int, rate: float, wait: bool) -> None:
-        super().__init__('simulated_radar')
-        self._scenario, self._sectors, self._wait = scenario, sectors, wait
+    def __init__(self, air: Broadcast, rate: float, wait: bool, about: str) -> None:
+        super().__init__(f'simulated_{air.sensor}')
+        self._air, self._wait, self._classes = air, wait, rclpy_types()
         overrides = QoSOverridingOptions.with_default_policies()
         self._publishers_by_topic = {
             topic: self.create_publisher(
-                PointCloud2, topic, QoSProfile(depth=10), qos_overriding_options=overrides
+                getattr(self._classes, kind.rpartition('/')[2]), topic, QoSProfile(depth=10),
+                qos_overriding_options=overrides,
             )
-            for topic in (PLOTS, TRUTH)
-        }
+            for topic, kind in air.types.items()
+        }  # fmt: skip
         self.has_finished = False
-        period = scenario.radar.period / sectors / rate
-        self._messages: Iterator[list[Sent]] = iter(
-            ()
-        )  # made at the first tick: the stamps begin there
-        self._has_begun = False
-        self.create_timer(period, self._tick)
-        where = self._publishers_by_topic[PLOTS].topic_name
+        self._plots = self._publishers_by_topic[air.topic]
+        # Made at the first tick: the stamps begin there.
+        self._messages: Iterator[list[Sent]] | None = None
+        self.create_timer(air.period / rate, self._tick)
         self.get_logger().info(
-            f'{scenario.description}: {scenario.duration:g} s at {rate:g} times real time on '
-            f'{where}' + (', as soon as somebody listens' if wait else '')
+            f'{about}: {air.period * air.count:g} s at {rate:g} times real time on '
+            f'{self._plots.topic_name}' + (', as soon as somebody listens' if wait else '')
         )
 
     def _tick(self) -> None:
-        if not self._has_begun:
-            if self._wait and not self._publishers_by_topic[PLOTS].get_subscription_count():
+        if self._messages is None:
+            if self._wait and not self._plots.get_subscription_count():
                 return
-            self._has_begun = True
             now = self.get_clock().now().nanoseconds * 1e-9
-            self._messages = send(self._scenario, rclpy_types(), self._sectors, now)
+            self._messages = self._air.messages(self._classes, now)
         sent = next(self._messages, None)
         if sent is None:
             self.has_finished = True
@@ -91,25 +89,25 @@ class SimulatedRadar(Node):
 
 
 def publish(
-    scenario: Scenario,
+    scene: Scene,
     ros_arguments: Sequence[str] = (),
     sectors: int = 1,
     rate: float = 1.0,
     wait: bool = False,
 ) -> int:
     """
-    Publish a scenario until it ends or a signal comes; returns the exit code.
+    Publish a scene until it ends or a signal comes; returns the exit code.
 
     Signals are only noted, and looked at between callbacks: rclpy's own handlers end the context
     below a callback that is about to publish, and cannot stand a second signal.
     """
     if not rate > 0.0:
         raise ValueError(f'rate must be above 0, got {rate}')
-    stop = Event()
+    air, stop = broadcast(scene, sectors), Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
-    node = SimulatedRadar(scenario, sectors, rate, wait)
+    node = SimulatedSensor(air, rate, wait, scene.description)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:

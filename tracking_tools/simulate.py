@@ -16,32 +16,30 @@ from tqdm import tqdm
 from msg_adapters.message_types import rosbags_types
 from tracking_tools.arguments import positive, seed
 from tracking_tools.bags import BagWriter, nanoseconds
-from tracking_tools.scenarios.menu import build, SCENARIOS
-from tracking_tools.scenarios.messages import EPOCH, PLOTS, send, TRUTH
-from tracking_tools.scenarios.plots import Scenario
+from tracking_tools.scenarios.broadcast import broadcast, Scene
+from tracking_tools.scenarios.menu import build_any, SCENES
+from tracking_tools.scenarios.messages import EPOCH, TRUTH
 from tracking_tools.stopping import stoppable
-
-POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
 
 
 def record(
-    scenario: Scenario,
+    scene: Scene,
     path: Path | str,
     sectors: int = 1,
     compress: bool = False,
     quiet: bool = False,
 ) -> dict[str, int]:
     """
-    Write the bag of a scenario: the same scenario gives the same bytes.
+    Write the bag of a scene: the same scene gives the same bytes.
 
     Parameters
     ----------
-    scenario : Scenario
+    scene : Scenario or Watch
         What happens.
     path : Path or str
         Directory to make.
     sectors : int
-        ``plots`` messages in a turn.
+        ``plots`` messages in a turn of a radar.
     compress : bool
         Whether to compress the storage.
     quiet : bool
@@ -50,24 +48,19 @@ def record(
     Returns
     -------
     dict
-        Rows written on each topic.
+        Rows written on each topic; messages where they have no rows.
 
     """
-    rows = {PLOTS: 0, TRUTH: 0}
-    steps = sectors * scenario.radar.turns(scenario.duration)
+    air = broadcast(scene, sectors)
+    rows = dict.fromkeys(air.types, 0)
+    lists = air.messages(rosbags_types(), EPOCH)
     with BagWriter(path, compress) as bag:
-        for topic in rows:
-            bag.announce(topic, POINT_CLOUD)
-        for sent in tqdm(
-            send(scenario, rosbags_types(), sectors),
-            'simulate',
-            steps,
-            unit='msg',
-            disable=quiet or None,
-        ):
+        for topic, kind in air.types.items():
+            bag.announce(topic, kind)
+        for sent in tqdm(lists, 'simulate', air.count, unit='msg', disable=quiet or None):
             for topic, msg, time in sent:
                 bag.write(topic, msg, nanoseconds(EPOCH + time))
-                rows[topic] += msg.width
+                rows[topic] += getattr(msg, 'width', 1)
     return rows
 
 
@@ -78,20 +71,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options, ros_arguments = _split(sys.argv[1:] if arguments is None else list(arguments))
     chosen = parser.parse_args(options)
     if chosen.list:
-        print('\n'.join(f'{name:18} {build(name).description}' for name in SCENARIOS))
+        print('\n'.join(f'{name:18} {build_any(name).description}' for name in SCENES))
         return 0
     if chosen.scenario is None or (chosen.output is None) == (not chosen.live):
         parser.error('give a scenario and either --output BAG or --live; --list shows them all')
     try:
-        scenario = _changed(build(chosen.scenario), chosen)
+        scene = _changed(build_any(chosen.scenario), chosen)
         if chosen.live:
             publisher = import_module('tracking_tools.publisher')  # needs rclpy, the rest does not
             publish = publisher.publish
-            return int(publish(scenario, ros_arguments, chosen.sectors, chosen.rate, chosen.wait))
-        rows = record(scenario, chosen.output, chosen.sectors, chosen.compress)
+            return int(publish(scene, ros_arguments, chosen.sectors, chosen.rate, chosen.wait))
+        rows = record(scene, chosen.output, chosen.sectors, chosen.compress)
     except (ValueError, FileExistsError) as error:
         parser.error(str(error))
-    print(f'{chosen.output}: {scenario.description}; {rows[PLOTS]} plots, {rows[TRUTH]} true rows')
+    topic = broadcast(scene).topic
+    print(f'{chosen.output}: {scene.description}; {rows[topic]} {topic}, {rows[TRUTH]} true rows')
     return 0
 
 
@@ -103,11 +97,11 @@ def _parser() -> argparse.ArgumentParser:
     add('--output', type=Path, metavar='BAG', help='rosbag2 directory to write')
     add('--compress', action='store_true', help='compress the bag (zstd)')
     add('--seed', type=seed, help='of the random numbers')
-    add('--duration', type=positive, metavar='S', help='how long the radar runs [s]')
+    add('--duration', type=positive, metavar='S', help='how long the sensor runs [s]')
     add('--sectors', type=int, default=1, metavar='N', help='messages in a turn (default 1)')
-    add('--live', action='store_true', help='publish instead, on plots and truth')
+    add('--live', action='store_true', help='publish instead of writing a bag')
     add('--rate', type=float, default=1.0, help='live: times real time (default 1)')
-    add('--wait', action='store_true', help='live: begin when plots has a subscriber')
+    add('--wait', action='store_true', help='live: begin when somebody listens')
     return parser
 
 
@@ -117,9 +111,9 @@ def _split(arguments: list[str]) -> tuple[list[str], list[str]]:
     return arguments[:cut], arguments[cut:]
 
 
-def _changed(scenario: Scenario, chosen: argparse.Namespace) -> Scenario:
+def _changed(scene: Scene, chosen: argparse.Namespace) -> Scene:
     wanted = {name: getattr(chosen, name) for name in ('seed', 'duration')}
-    return replace(scenario, **{k: v for k, v in wanted.items() if v is not None})
+    return replace(scene, **{k: v for k, v in wanted.items() if v is not None})
 
 
 if __name__ == '__main__':

@@ -26,6 +26,7 @@ from tracking_tools.sweeping.store import Figures, Store, write_whole
 from tracking_tools.sweeping.table import Case, cases_of, to_json, to_text
 from tracking_tools.sweeping.tasks import (
     check_apart,
+    check_sensor,
     settings_of,
     source_of,
     swept_values,
@@ -140,8 +141,11 @@ def _plan(chosen: argparse.Namespace) -> Planned:
     settings = settings_of({name: v for name, v in given.items() if len(v) != 1})
     for setting in settings:
         configure(sensor.configs, {**fixed, **setting})
-    sources = [source_of(name, chosen.duration) for name in chosen.sources]
+    if chosen.truth is not None and len(chosen.sources) > 1:
+        raise ValueError(f'--truth is of one recording, got {len(chosen.sources)} sources')
+    sources = [source_of(name, chosen.duration, chosen.truth) for name in chosen.sources]
     check_apart(sources)
+    check_sensor(sources, chosen.sensor)
     Topics.remapped(chosen.remap, sensor)  # says what is wrong with a rule
     yardstick = yardstick_of(chosen, chosen.sensor)
     return list(

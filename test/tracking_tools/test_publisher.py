@@ -28,7 +28,8 @@ def stamp_of(header):
 def listening(domain_id, topics):
     """Node of this process and what it has received by topic."""
     rclpy = pytest.importorskip('rclpy')
-    sensor_msgs = pytest.importorskip('sensor_msgs.msg')
+    table = pytest.importorskip('sensor_msgs.msg').PointCloud2
+    odometry = pytest.importorskip('nav_msgs.msg').Odometry
     context = rclpy.Context()
     rclpy.init(context=context, domain_id=domain_id)
     node = rclpy.create_node('listener', context=context)
@@ -36,7 +37,8 @@ def listening(domain_id, topics):
     executor.add_node(node)
     received = {topic: [] for topic in topics}
     for topic, messages in received.items():
-        node.create_subscription(sensor_msgs.PointCloud2, topic, messages.append, 100)
+        kind = odometry if topic == 'ownship' else table
+        node.create_subscription(kind, topic, messages.append, 100)
     try:
         yield executor, received
     finally:
@@ -87,6 +89,24 @@ def test_live_publishes_the_scenario(ros_domain_id):
         np.testing.assert_array_equal(columns['range'], scan.columns['range'].astype('f4'))
     for msg in received['truth']:
         assert sorted(to_columns(msg, MANY_ROWS)['id']) == [1, 2, 3, 4, 5, 6]
+
+
+def test_live_publishes_what_a_sonar_hears(ros_domain_id):
+    """Twenty cycles of marks, own ship and truth; stamps two seconds apart; exit code 0."""
+    arguments = ('sonar_watch', '--live', '--wait', '--rate', '20', '--duration', '40')
+    topics = ('ownship', 'truth', 'bearings')
+    with (
+        listening(ros_domain_id, topics) as (executor, received),
+        simulating(*arguments) as process,
+    ):
+        spin_until(executor, lambda: all(len(received[topic]) == 20 for topic in topics))
+        spin_until(executor, lambda: process.poll() is not None)
+        assert process.returncode == 0
+    for topic in topics:
+        stamps = np.array([stamp_of(msg.header) for msg in received[topic]]) * 1e-9
+        np.testing.assert_allclose(np.diff(stamps), 2.0, atol=1e-6)
+    heard = [to_columns(msg, MANY_ROWS)['bearing'] for msg in received['bearings']]
+    assert len(np.concatenate(heard)) >= 20
 
 
 @pytest.mark.parametrize(

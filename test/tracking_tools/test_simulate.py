@@ -142,6 +142,22 @@ def test_compressed_bag_holds_the_same(tmp_path, turns_bag):
                 np.testing.assert_array_equal(column, other[2][name])
 
 
+def test_scene_of_a_sonar_has_marks_own_ship_and_truth(tmp_path):
+    """A message each cycle on each topic; again the same bytes; another seed, other marks."""
+    one, two, other = (tmp_path / name for name in ('one', 'two', 'other'))
+    given = ['sonar_watch', '--duration', '60', '--output']
+    for bag, more in ((one, ()), (two, ()), (other, ('--seed', '7'))):
+        assert main([*given, str(bag), *more]) == 0
+    with open_bag(one) as reader:
+        found = {c.topic: (c.msgtype, c.msgcount) for c in reader.connections}
+    table = 'sensor_msgs/msg/PointCloud2'
+    assert found == {
+        '/ownship': ('nav_msgs/msg/Odometry', 30), '/bearings': (table, 30), '/truth': (table, 30),
+    }  # fmt: skip
+    files = [(bag / 'recording.mcap').read_bytes() for bag in (one, two, other)]
+    assert files[0] == files[1] != files[2]
+
+
 def test_unfinished_bag_leaves_nothing(tmp_path):
     """An error while writing takes the half bag away."""
     with pytest.raises(TypesysError, match='no_such'), BagWriter(tmp_path / 'half') as bag:
@@ -173,6 +189,10 @@ def test_bag_topics_are_absolute(tmp_path):
             '--duration: must be a number above 0, got -3',
         ),
         (['z0', '--output', 'x', '--sectors', '2'], 'must be 1 for a staring radar'),
+        (
+            ['sonar_watch', '--output', 'x', '--sectors', '2'],
+            'sectors must be 1 for a sonar, got 2',
+        ),
     ],
 )
 def test_wrong_command_says_what_is_wrong(arguments, complaint, capsys, tmp_path, monkeypatch):
@@ -191,3 +211,4 @@ def test_list_shows_every_scenario(capsys):
     shown = capsys.readouterr().out
     assert 'crossing  ' in shown
     assert 'two crossing manoeuvring aircraft in clutter' in shown
+    assert 'sonar_crossing  ' in shown

@@ -11,6 +11,7 @@ import shutil
 import numpy as np
 import pytest
 
+from tracking_tools.bags import BagWriter, open_bag
 from tracking_tools.evaluate import main as evaluate
 from tracking_tools.sweep import main
 from tracking_tools.sweeping import crew
@@ -20,6 +21,7 @@ from tracking_tools.sweeping.table import Case
 from tracking_tools.sweeping.tasks import settings_of, swept_values, Task
 from tracking_tools.sweeping.work import work
 
+CONFIG = Path(__file__).parents[2] / 'config'
 TINY = ('crossing', '--duration', '20', '--jobs', '1', '--quiet')
 TWO = ('--runs', '2', '--set', 'sensor.detection_probability=0.7,0.9')
 
@@ -109,6 +111,12 @@ def test_evaluate_with_runs_is_a_sweep_without_settings(tmp_path: Path) -> None:
         (['crossing', '--set', 'association=jpda,pda,jpda'], 'association has jpda twice'),
         (['crossing', '--set', 'association=pda', '--set', 'association=jpda'], 'once'),
         (['crossing', '--remap', 'points:=/a'], 'FROM one of plots'),
+        (['sonar_watch'], 'sonar_watch is a scenario of a sonar: give --sensor sonar'),
+        (['crossing', '--sensor', 'sonar'], 'crossing is a scenario of a radar: give --sensor r'),
+        (['bags/monday'], 'no recording at bags/monday'),
+        (['monday.mcap'], 'no recording at monday.mcap'),
+        (['crossing', '--truth', 'ais'], '--truth is of a recording, but crossing is a scenario'),
+        (['a', 'b', '--truth', 'ais'], '--truth is of one recording, got 2 sources'),
     ],
 )
 def test_sweep_refuses_before_the_first_run(
@@ -183,6 +191,49 @@ def test_sweep_refuses_a_recording_that_is_there_twice(
     with pytest.raises(SystemExit, match='2'):
         main([str(bag), str(copy), '--output', str(tmp_path / 'none')])
     assert 'are the same recording' in capsys.readouterr().err
+
+
+def test_sweep_takes_a_scenario_of_a_sonar(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its tracks are judged in degrees, beside what really was."""
+    params = str(CONFIG / 'passive_linear_array.yaml')
+    given = ['sonar_crossing', '--sensor', 'sonar', '--params', params, '--duration', '60']
+    assert main([*given, '--runs', '2', '--jobs', '1', '--quiet', '--output', str(tmp_path)]) == 0
+    assert 'GOSPA [deg]' in capsys.readouterr().out
+    for data in results(tmp_path).values():
+        assert json.loads(data)['figures']['held']['coverage'] > 0.8
+
+
+def test_sweep_takes_a_storage_file_and_the_truth_of_another_bag(
+    cut_bag: Callable[[int], Path], tmp_path: Path
+) -> None:
+    """The figures are those of the bag with its own truth; without any truth the run fails."""
+    bare = tmp_path / 'bare'
+    with open_bag(cut_bag(6)) as bag, BagWriter(bare) as out:
+        for connection, time, raw in bag.messages():
+            if connection.topic != '/truth':
+                out.write_raw(connection.topic, connection.msgtype, raw, time)
+    file = str(next(bare.glob('*.mcap')))
+    options = ['--jobs', '1', '--quiet', '--output']
+    assert main([file, '--truth', str(cut_bag(6)), *options, str(tmp_path / 'other')]) == 0
+    assert main([str(cut_bag(6)), *options, str(tmp_path / 'own')]) == 0
+    own, other = (
+        json.loads(next(iter(results(tmp_path / name).values()))) for name in ('own', 'other')
+    )
+    assert other['figures'] == own['figures']
+    assert main([file, *options, str(tmp_path / 'none')]) == 1
+
+
+def test_sweep_does_not_write_into_a_recording(
+    cut_bag: Callable[[int], Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A slip of the hand is told, and the bag is left as it is."""
+    before = sorted(cut_bag(6).iterdir())
+    with pytest.raises(SystemExit, match='2'):
+        main([*TINY, '--output', str(cut_bag(6))])
+    assert 'is a recording; give a folder of its own' in capsys.readouterr().err
+    assert sorted(cut_bag(6).iterdir()) == before
 
 
 def test_settings_of_are_all_combinations() -> None:

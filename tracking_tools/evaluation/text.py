@@ -60,8 +60,7 @@ def rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
     yield from _accuracy_rows(judgement)
     yield 'NEES position', _number(judgement.nees_position.mean), _band(judgement.nees_position)
     yield 'NEES state', _number(judgement.nees_state.mean), _band(judgement.nees_state)
-    # The table has the distance from the nearest mode, so right covariances give less than 1.
-    yield 'NIS, nearest mode', _number(judgement.nis.mean), _band(judgement.nis)
+    yield 'NIS, nearest mode', _number(judgement.nis.mean), _nearest(judgement.nis)
     yield from _set_rows(judgement)
     if judgement.ranges is not None:
         ranges = judgement.ranges
@@ -115,9 +114,20 @@ def _band(found: Consistency) -> str:
         return 'no samples'
     verdict = 'inside' if found.is_inside else 'outside'
     return (
-        f'per dimension; {verdict} the 95 % band {found.low:.3f} to {found.high:.3f} of '
-        f'{found.samples} independent samples; {found.inside:.1%} of them below 95 %'
+        f'per dimension; {verdict} {found.low:.3f} to {found.high:.3f}, the 95 % band of '
+        f'{found.samples} samples were they independent; {_inside(found)}'
     )
+
+
+def _nearest(found: Consistency) -> str:
+    """Return what can be said of distances from the nearest mode: no band holds for them."""
+    if not found.samples:
+        return 'no samples'
+    return f'per dimension; below 1 where several modes are right; {_inside(found)}'
+
+
+def _inside(found: Consistency) -> str:
+    return f'{found.inside:.1%} below the 95 % quantile of one'
 
 
 def _contact(contact: ContactJudgement, unit: Unit) -> str:

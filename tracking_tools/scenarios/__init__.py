@@ -1,14 +1,15 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Simulated scenes: contacts that move exactly, seen by a radar with all its faults.
+Simulated scenes: contacts that move exactly, seen by a radar or heard by a sonar with its faults.
 
 Read ``trajectory`` and ``legs`` (how contacts move), ``radar`` (what sees them), ``passes``
-(when), ``plots`` (what comes out) and ``menu`` (the named scenes) in this order.
+(when), ``plots`` (what comes out) and ``menu`` (the named scenes) in this order; for a sonar
+``array`` (what it hears) and ``listening``. ``broadcast`` is how either goes on the air.
 """
 
 from tracking_tools.scenarios.legs import Leg, Legs
-from tracking_tools.scenarios.menu import build, SCENARIOS
+from tracking_tools.scenarios.menu import build, build_any, SCENARIOS, SCENES
 from tracking_tools.scenarios.passes import Contact, find_passes, Truth
 from tracking_tools.scenarios.plots import FALSE_PLOT, plots, Scenario, SimulatedScan
 from tracking_tools.scenarios.radar import NORTH, Radar
@@ -18,6 +19,7 @@ __all__ = [
     'FALSE_PLOT',
     'NORTH',
     'SCENARIOS',
+    'SCENES',
     'Contact',
     'Leg',
     'Legs',
@@ -28,6 +30,7 @@ __all__ = [
     'Trajectory',
     'Truth',
     'build',
+    'build_any',
     'find_passes',
     'plots',
 ]

@@ -38,6 +38,10 @@ class Watch:
     array: LinearArray = field(default_factory=LinearArray)
     seed: int = 1
 
+    def __post_init__(self) -> None:
+        if not self.duration > 0.0:
+            raise ValueError(f'Watch.duration must be above 0 s, got {self.duration}')
+
     @property
     def times(self) -> Floats:
         """Of the cycles (K,) [s]."""

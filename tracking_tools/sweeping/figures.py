@@ -42,6 +42,7 @@ SHOWN = {
     'ospa': Shown('OSPA', ('ospa', 'mean'), is_distance=True),
     'held': Shown('coverage', ('held', 'coverage'), is_loss=False),
     'switches': Shown('id switches', ('held', 'id_switches')),
+    'lasting': Shown('lasting switches', ('held', 'lasting_switches')),
     'false': Shown('false tracks', ('held', 'false_tracks')),
     'rmse': Shown('RMSE', ('accuracy', 'rmse'), is_distance=True),
     'nees': Shown('NEES', ('nees_position', 'mean')),

@@ -33,6 +33,7 @@ def sweep_parser() -> argparse.ArgumentParser:
     add('--params', type=Path, metavar='FILE', help='parameter file in ROS form (YAML)')
     add('--remap', action='append', default=[], metavar='FROM:=TO',
         help='topics of recordings, as plots:=/radar/plots')  # fmt: skip
+    add('--truth', type=Path, metavar='BAG', help='of the one recording, where another bag has it')
     add('--duration', type=positive, metavar='S', help='of the scenarios [s]')
     add('--jobs', type=count, default=cores(), metavar='N', help='processes; default: all cores')
     add('--dask', metavar='ADDRESS', help='of a Dask scheduler whose workers do it instead')

@@ -15,9 +15,19 @@ Figures = dict[str, Any]
 
 
 class Store:
-    """The folder of a sweep; it can be left at any moment and gone on with later."""
+    """
+    The folder of a sweep; it can be left at any moment and gone on with later.
+
+    Raises
+    ------
+    ValueError
+        If the folder is a recording.
+
+    """
 
     def __init__(self, folder: Path) -> None:
+        if (folder / 'metadata.yaml').exists():
+            raise ValueError(f'--output {folder} is a recording; give a folder of its own')
         self.folder = folder
         self._runs = folder / 'runs'
         self._runs.mkdir(parents=True, exist_ok=True)

@@ -16,7 +16,8 @@ from msg_adapters.parameter_blocks import BadParameterFile
 from tracking_core.config import parameters
 from tracking_tools.evaluation import Yardstick
 from tracking_tools.parameter_file import configure, parse_value
-from tracking_tools.scenarios import build, SCENARIOS
+from tracking_tools.scenarios import build_any, SCENES
+from tracking_tools.scenarios.broadcast import broadcast
 from tracking_tools.sensors import SENSORS
 
 Values = Mapping[str, Any]  # of parameters, by dotted name
@@ -27,8 +28,9 @@ class Source:
     """Where plots come from: a scenario, or a recording with its truth."""
 
     name: str  # of the scenario, or the path of the bag
-    digest: str = ''  # of the recording; '' for a scenario
+    digest: str = ''  # of the recording and its truth; '' for a scenario
     duration: float | None = None  # of the scenario, None: its own [s]
+    truth: str = ''  # path of the bag that has it; '': the recording itself
 
     @property
     def is_scenario(self) -> bool:
@@ -64,23 +66,33 @@ def _hash(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def source_of(name: str, duration: float | None = None) -> Source:
+def source_of(name: str, duration: float | None = None, truth: Path | None = None) -> Source:
     """
-    Return the scenario of that name or the recording at that path.
+    Return the scenario of that name or the recording at that path: a bag or its storage file.
 
     Raises
     ------
     ValueError
-        Where there is neither.
+        Where there is neither, or no truth.
 
     """
-    if name in SCENARIOS:
+    if name in SCENES:
+        if truth is not None:
+            raise ValueError(f'--truth is of a recording, but {name} is a scenario')
         return Source(name, duration=duration)
-    folder = Path(name)
-    if not folder.is_dir():
-        build(name)  # says which scenarios there are
-    parts = [_hash(file.read_bytes()) for file in sorted(folder.iterdir()) if file.is_file()]
-    return Source(str(folder), _hash(' '.join(parts).encode()))
+    path = Path(name)
+    if not path.exists() and path.name == name and not path.suffix:
+        build_any(name)  # says which scenarios there are
+    digests = [_digest(bag) for bag in (path, truth) if bag is not None]
+    return Source(str(path), ' '.join(digests), truth=str(truth or ''))
+
+
+def _digest(bag: Path) -> str:
+    if not bag.exists():
+        raise ValueError(f'no recording at {bag}')
+    files = sorted(bag.iterdir()) if bag.is_dir() else [bag]
+    parts = [_hash(file.read_bytes()) for file in files if file.is_file()]
+    return _hash(' '.join(parts).encode())
 
 
 def swept_values(texts: Sequence[str]) -> dict[str, list[Any]]:
@@ -120,6 +132,13 @@ def check_apart(sources: Sequence[Source]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise ValueError(f'{name} is there twice')
+
+
+def check_sensor(sources: Sequence[Source], sensor: str) -> None:
+    """Refuse with ValueError a scenario that another sensor than this sees."""
+    for source in sources:
+        if source.is_scenario and (of := broadcast(build_any(source.name)).sensor) != sensor:
+            raise ValueError(f'{source.name} is a scenario of a {of}: give --sensor {of}')
 
 
 def settings_of(swept: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:

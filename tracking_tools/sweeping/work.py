@@ -14,7 +14,7 @@ from tracking_tools.evaluation.text import plain
 from tracking_tools.parameter_file import configure
 from tracking_tools.replay import replay
 from tracking_tools.replay_topics import Topics
-from tracking_tools.scenarios import build
+from tracking_tools.scenarios import build_any
 from tracking_tools.sensors import SENSORS
 from tracking_tools.simulate import record
 from tracking_tools.sweeping.tasks import Task
@@ -37,7 +37,8 @@ def work(task: Task) -> str:
         rules = task.rules if not task.source.is_scenario else ()
         topics = Topics.remapped(rules, sensor)
         replay(recording, tracks, configs, topics, quiet=True, sensor=sensor)
-        judgement = evaluate(tracks, recording, task.yardstick, rules, task.sensor)
+        truth = Path(task.source.truth) if task.source.truth else recording
+        judgement = evaluate(tracks, truth, task.yardstick, rules, task.sensor)
     result = {'task': task.identity, 'figures': _figures(judgement)}
     return json.dumps(result, indent=1, sort_keys=True, allow_nan=False) + '\n'
 
@@ -45,10 +46,10 @@ def work(task: Task) -> str:
 def _recording(task: Task, folder: Path) -> Path:
     if not task.source.is_scenario:
         return Path(task.source.name)
-    scenario = replace(build(task.source.name), seed=task.seed)
+    scene = replace(build_any(task.source.name), seed=task.seed)
     if task.source.duration is not None:
-        scenario = replace(scenario, duration=task.source.duration)
-    record(scenario, folder / 'plots', quiet=True)
+        scene = replace(scene, duration=task.source.duration)
+    record(scene, folder / 'plots', quiet=True)
     return folder / 'plots'
 
 
