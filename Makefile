@@ -34,7 +34,7 @@ demo-sonar: $(READY) ## the same for the sonar node: bearings through a crossing
 test: $(READY) ## run the whole test suite
 	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal $(ARGS)
 
-soak: $(READY) ## run the long versions of the reliability tests; takes hours
+soak: $(READY) ## run the long reliability tests: an hour, on a machine that does little else
 	$(BIN)/python -m pytest -m soak -s $(ARGS)
 
 coverage: $(READY) ## run the core's tests and show which of its lines and branches they miss

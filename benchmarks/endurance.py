@@ -26,6 +26,7 @@ from visualization_msgs.msg import MarkerArray
 
 from benchmarks.node_watch import Watch
 from benchmarks.passing_traffic import circling, see, Traffic
+from benchmarks.processes import resident
 from msg_adapters.message_types import seconds
 from msg_adapters.table import Columns
 from tracking_core.batches import Floats
@@ -85,7 +86,7 @@ def endure(
         for turn in range(spans * turns):
             since = turn * PERIOD
             plots = see(contacts(since), clutter, since, PERIOD, rng)
-            watch.hear(_ask(probe, plots, BEGIN + since))
+            watch.hear(_ask(probe, plots, BEGIN + since), resident(node.process.pid))
             drawn.clear()
             if (turn + 1) % turns == 0:
                 print(watch.span(node.process.pid, turns), flush=True)

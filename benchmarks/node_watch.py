@@ -9,7 +9,7 @@ from time import process_time
 
 import numpy as np
 
-from benchmarks.processes import cpu_time, resident
+from benchmarks.processes import cpu_time
 from msg_adapters.table import Columns
 from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Floats
@@ -22,7 +22,7 @@ MEGABYTE, MILLISECOND = 1e6, 1e-3
 class Watch:
     """What was seen of the node so far, a span of turns at a time."""
 
-    memory: list[int] = field(default_factory=list)  # at the end of each span [bytes]
+    memory: list[float] = field(default_factory=list)  # median of each span's turns [bytes]
     cost: list[float] = field(default_factory=list)  # of each span, CPU of the node a turn [s]
     ours: list[float] = field(default_factory=list)  # the same of this process
     dead: set[int] = field(default_factory=set)
@@ -30,9 +30,22 @@ class Watch:
     newest: int = 0
     again: int = 0  # rows with an id that was deleted before
     _spent: tuple[float, float] = (0.0, 0.0)  # CPU up to the last full span [s]
+    _resident: list[int] = field(default_factory=list)  # after each turn of this span [bytes]
 
-    def hear(self, table: Columns) -> None:
-        """Take note of the ids of one track table."""
+    def hear(self, table: Columns, memory: int) -> None:
+        """
+        Take note of one turn.
+
+        Parameters
+        ----------
+        table : dict of (T,) arrays
+            The tracks.
+        memory : int
+            Resident memory of the node [bytes]. Buffers of messages come and go in it, by several
+            percent in a crowd: one look a span would say little.
+
+        """
+        self._resident.append(memory)
         ids = table['id'].tolist()
         self.again += len(self.dead.intersection(ids))
         self.dead.update(table['id'][table['status'] == DELETED].tolist())
@@ -42,7 +55,8 @@ class Watch:
     def span(self, pid: int, turns: int) -> str:
         """Take note of the process after one more span of so many turns; return a line on it."""
         spent = cpu_time(pid), process_time()
-        self.memory.append(resident(pid))
+        self.memory.append(float(np.median(self._resident)))
+        self._resident.clear()
         self.cost.append((spent[0] - self._spent[0]) / turns)
         self.ours.append((spent[1] - self._spent[1]) / turns)
         self._spent = spent
@@ -55,7 +69,7 @@ class Watch:
 
     @property
     def growth(self) -> float:
-        """Share by which memory was ever more than after the first span."""
+        """Share by which the memory of a span was ever more than that of the first."""
         return max(self.memory[1:]) / self.memory[0] - 1.0
 
     @property
