@@ -84,8 +84,13 @@ def wait_until_gone(processes: list[int]) -> None:
 @pytest.mark.skipif(
     not Path('/proc/thread-self/children').exists(), reason='looks for processes in /proc'
 )
-def test_processes_are_stopped_and_gone_on_with(alone: dict[str, bytes], tmp_path: Path) -> None:
-    """Ctrl-C leaves whole results and no process; the same command ends with equal bytes."""
+def test_processes_are_stopped_and_gone_on_with(
+    alone: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ctrl-C leaves whole results, no process, no temporary file; the same command goes on."""
+    temporary = tmp_path / 'temporary'
+    temporary.mkdir()
+    monkeypatch.setenv('TMPDIR', str(temporary))
     for attempt in range(5):  # on a busy machine all may be done before the signal is sent
         folder = tmp_path / str(attempt)
         command = [*TINY, '--runs', '6', '--jobs', '2', '--output', str(folder)]
@@ -102,6 +107,7 @@ def test_processes_are_stopped_and_gone_on_with(alone: dict[str, bytes], tmp_pat
     assert b'leaked' not in error
     assert workers
     wait_until_gone(workers)
+    assert list(temporary.iterdir()) == []
     kept = results(folder)
     assert kept.items() <= alone.items()
     assert main([*command, '--jobs', '1']) == 0

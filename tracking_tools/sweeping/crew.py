@@ -13,6 +13,8 @@ from functools import partial
 import multiprocessing
 import os
 import signal
+import tempfile
+from tempfile import TemporaryDirectory
 from threading import RLock, Thread
 import time
 from typing import Any
@@ -66,13 +68,20 @@ def by_processes(tasks: Sequence[Task], jobs: int) -> Done:
     """Do the tasks on several cores; processes are spawned, so that no thread is copied."""
     if not tasks:
         return
-    context = multiprocessing.get_context('spawn')
-    with _one_thread_each():
-        pool = ProcessPoolExecutor(jobs, context, _begin, (os.getpid(),))
-        futures = {pool.submit(work, task): task for task in tasks}
-    try:
+    with TemporaryDirectory(prefix='sweep_') as folder, _pool(jobs, folder) as pool:
+        with _one_thread_each():
+            futures = {pool.submit(work, task): task for task in tasks}
         for future in as_completed(futures):
             yield futures[future], _outcome(futures[future], future.result)
+
+
+@contextmanager
+def _pool(jobs: int, folder: str) -> Iterator[ProcessPoolExecutor]:
+    """Provide processes whose temporary files are in this folder; an error ends them at once."""
+    context = multiprocessing.get_context('spawn')
+    pool = ProcessPoolExecutor(jobs, context, _begin, (os.getpid(), folder))
+    try:
+        yield pool
     except BaseException:  # Ctrl-C above all: what runs is not waited for
         for process in list((pool._processes or {}).values()):  # no public way to end them
             process.terminate()
@@ -94,8 +103,9 @@ def _one_thread_each() -> Iterator[None]:
             del os.environ[name]
 
 
-def _begin(parent: int) -> None:
-    """Leave Ctrl-C to the parent, and do not outlive it."""
+def _begin(parent: int, folder: str) -> None:
+    """Leave Ctrl-C to the parent, do not outlive it, and put what is temporary in its folder."""
+    tempfile.tempdir = folder
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     tqdm.set_lock(RLock())  # its own is a semaphore, which is left behind where a process is ended
     Thread(target=_end_with, args=(parent,), daemon=True).start()
