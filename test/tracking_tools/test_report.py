@@ -75,6 +75,7 @@ def test_replay_writes_a_page_with_all_rows(
     assert 'histogram' in content['figures']
     assert 'gospa' in content['figures']
     assert 'sensor.range_sd' in html
+    assert f'{len(np.unique(tracks["stamp"]))} scans with tracks' in html
     assert np.all(np.diff(tracks['id'].astype(int)) >= 0)
 
 

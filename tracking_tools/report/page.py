@@ -142,7 +142,7 @@ def _summary(material: Material, table: dict[str, Any]) -> str:
     count, what = len(plots.get('time', ())), 'plots' if isinstance(scene, Scene) else 'marks'
     parts = [
         f'{np.ptp(table["stamp"]) / MINUTE:.0f} minutes',
-        f'{len(np.unique(table["stamp"]))} scans',
+        f'{len(np.unique(table["stamp"]))} scans with tracks',
         *([f'{count} {what}'] if count else []),
         *([f'{len(np.unique(scene.truth["id"]))} contacts'] if scene.has_truth else []),
         f'{len(np.unique(table["id"]))} confirmed tracks',
