@@ -108,7 +108,7 @@ class RadarTracker:
         """Start a confirmed track at a position (2,) or (3,) [m] at a time [s]; return its id."""
         full = np.zeros(self.dimensions)
         full[: min(len(position), self.dimensions)] = position[: self.dimensions]
-        return self._tracker.acquire(full, time)
+        return self._tracker.acquire(full, time, self._last_coverage)
 
     def drop_track(self, track_id: int) -> bool:
         """Delete one track; return whether there was one with this id."""

@@ -75,15 +75,14 @@ class Platform:
     def __len__(self) -> int:
         return len(self.time)
 
-    def add(self, sample: Platform) -> Platform:
+    def add(self, *samples: Platform) -> Platform:
         """
         Return the platform with these samples, the oldest dropped beyond the capacity.
 
-        Samples may come late; of two at one time the newer message wins.
+        Samples may come late; of two at one time the later of the arguments wins.
         """
-        joined = {
-            name: np.concatenate([getattr(sample, name), getattr(self, name)]) for name in _ARRAYS
-        }
+        parts = (*reversed(samples), self)
+        joined = {name: np.concatenate([getattr(p, name) for p in parts]) for name in _ARRAYS}
         _, first = np.unique(joined['time'], return_index=True)
         kept = {name: values[first[-self.capacity :]] for name, values in joined.items()}
         return Platform(**kept, max_extrapolation=self.max_extrapolation, capacity=self.capacity)

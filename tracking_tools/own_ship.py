@@ -17,13 +17,14 @@ _UNLIMITED = 1e9  # s, and samples
 
 def read_platform(recording: Path | str, topic: str) -> Platform | None:
     """Return own ship all through the recording, None without."""
-    platform = Platform.empty(_UNLIMITED, int(_UNLIMITED))
+    samples = []
     with open_bag(recording) as bag:
         chosen = [connection for connection in bag.connections if connection.topic == topic]
         for connection, _, raw in bag.messages(chosen) if chosen else ():
             msg: Any = bag.deserialize(raw, connection.msgtype)
             try:
-                platform = platform.add(to_platform(msg))
+                samples.append(to_platform(msg))
             except BadMessage:
                 continue
-    return platform if len(platform) else None
+    platform = Platform.empty(_UNLIMITED, int(_UNLIMITED)).add(*samples)
+    return platform if samples else None

@@ -16,9 +16,10 @@ from radar_tracker.mounting import in_sensor_axes, PlatformDoubt
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.sensor import Radar
 from radar_tracker.session import radar_session
+from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values
-from tracking_core.platform import PlatformPose
+from tracking_core.platform import Platform, PlatformPose
 
 pytest.importorskip('rosbags')
 TYPES = pytest.importorskip('msg_adapters.message_types').rosbags_types()
@@ -235,3 +236,18 @@ def test_tracks_of_an_unsure_ship_keep_their_plots_and_are_honest():
     assert table['id'].max() == len(BUOYS)  # nobody was lost and found again
     assert np.concatenate(coasted).mean() < 0.03  # 13 % with gates for the radar's noise alone
     assert 0.3 < np.concatenate(errors).mean() < 1.5
+
+
+def test_ordered_track_starts_with_the_noise_of_its_place_before_own_ship():
+    """A point 10 km ahead of a ship far from the origin is as sure as a plot there."""
+    ship = Platform(
+        np.zeros(1), np.array([[50e3, 0.0, 0.0]]), np.array([[0.0, 0.0, 0.0, 1.0]]),
+        np.zeros((1, 3)), np.zeros((1, 3, 3)), np.zeros(1), max_extrapolation=1e9,
+    )  # fmt: skip
+    tracker = RadarTracker(RadarTrackerConfig())
+    tracker.track(Plots.polar(np.zeros(1), np.array([5e3]), np.array([1.0])), ship)
+    place = np.array([50e3, 10e3, 0.0])
+    tracker.start_track(place, 1.0)
+    P = tracker.tracks.planes[0].covariance[-1, 0]
+    noise = tracker.plot_noise(place[None])[0]
+    np.testing.assert_allclose(P[np.ix_([0, 2], [0, 2])], noise, rtol=1e-9)

@@ -91,3 +91,15 @@ def test_samples_are_kept_in_order_and_bounded():
     )
     np.testing.assert_array_equal(platform.time, [2.0, 3.0, 4.0])
     assert platform.position[0, 0] == 7.0
+
+
+def test_many_samples_at_once_are_as_one_by_one():
+    """Late ones and two at one time included: the one that came later wins."""
+    times = (3.0, 1.0, 2.0, 2.0, 4.0, 1.0)
+    samples = [sample(time, float(number)) for number, time in enumerate(times)]
+    one_by_one = Platform.empty(capacity=3)
+    for each in samples:
+        one_by_one = one_by_one.add(each)
+    at_once = Platform.empty(capacity=3).add(*samples)
+    np.testing.assert_array_equal(at_once.time, [2.0, 3.0, 4.0])
+    np.testing.assert_array_equal(at_once.position, one_by_one.position)
