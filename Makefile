@@ -38,7 +38,7 @@ soak: $(READY) ## run the long reliability tests: an hour, on a machine that doe
 	$(BIN)/python -m pytest -m soak -s $(ARGS)
 
 coverage: $(READY) ## run the core's tests and show which of its lines and branches they miss
-	$(BIN)/python -m pytest test/tracking_core --cov --cov-report=term-missing --cov-fail-under=95 $(ARGS)
+	$(BIN)/python -m pytest test/tracking_core --cov=tracking_core --cov-report=term-missing --cov-fail-under=95 $(ARGS)
 
 lint: $(READY) ## check style, types and import rules
 	$(BIN)/python -m ruff check

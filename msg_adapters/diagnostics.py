@@ -11,8 +11,6 @@ from typing import Any
 
 from msg_adapters.message_types import MessageTypes
 
-LEVELS = ('OK', 'WARN', 'ERROR', 'STALE')
-
 
 @dataclass
 class InputCount:
@@ -82,7 +80,7 @@ def to_diagnostics(
     header: Any,
     types: MessageTypes,
 ) -> Any:
-    """Return a DiagnosticArray with one status; `level` is one of `LEVELS`."""
+    """Return a DiagnosticArray with one status; `level` is OK, WARN, ERROR or STALE."""
     status = types.DiagnosticStatus(
         level=getattr(types.DiagnosticStatus, level),
         name=name,

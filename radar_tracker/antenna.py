@@ -107,9 +107,9 @@ class Antenna:
             period = TWO_PI / abs(self._rate)
             length = period if self._collects else min(self._interval, period)
             end = max(latest, plots.stamp + reach * length)
-        return self._sweep(plots.time, azimuth, start, end)
+        return self._sweep(start, end)
 
-    def _sweep(self, time: Floats, azimuth: Floats, start: float, end: float) -> Sweep:
+    def _sweep(self, start: float, end: float) -> Sweep:
         last, self._start, self._end = self._end, start, end
         if self._rate == 0.0:
             return Sweep(start, end)

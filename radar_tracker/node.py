@@ -4,9 +4,9 @@
 The radar tracker as a ROS node.
 
 Subscribes to `plots` (PointCloud2), `ownship` (Odometry), `acquire` (PointStamped) and `cancel`
-(UInt32); publishes `~/tracks` (PointCloud2), `~/odometry` (Odometry), `~/markers` (MarkerArray)
-and `/diagnostics`; serves `~/reset` (Trigger). Parameters are those of ``config.py`` and
-``node_config.py``. What it is made of is in ``live.py``.
+(UInt32); publishes `~/tracks` (PointCloud2), `~/odometry` (Odometry), `~/markers` (MarkerArray),
+`~/radar_tracks` (RadarTracks, if asked for) and `/diagnostics`; serves `~/reset` (Trigger).
+Parameters are those of ``config.py`` and ``node_config.py``. What it is made of is in ``live.py``.
 """
 
 from __future__ import annotations

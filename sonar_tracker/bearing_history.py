@@ -11,7 +11,7 @@ import numpy as np
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.linalg import nearest_turn
 
-_TIME, _BEARING, _X, _Y, _WEIGHT = range(5)  # rows of `points`
+_TIME, _BEARING, _WEIGHT = 0, 1, 4  # rows of `points`; 2 and 3 are x and y of own ship
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,9 @@ The sonar tracker as a ROS node.
 
 Subscribes to `bearings` (PointCloud2), `ownship` (Odometry), `acquire` (PointStamped) and `cancel`
 (UInt32); publishes `~/tracks` (PointCloud2), `~/odometry` (Odometry, of contacts whose range is
-known), `~/markers` (MarkerArray) and `/diagnostics`; serves `~/reset` (Trigger). Parameters are
-those of ``config.py`` and ``node_config.py``. What it is made of is in ``live.py``.
+known), `~/markers` (MarkerArray), `~/radar_tracks` (RadarTracks, if asked for) and `/diagnostics`;
+serves `~/reset` (Trigger). Parameters are those of ``config.py`` and ``node_config.py``. What it
+is made of is in ``live.py``.
 """
 
 from __future__ import annotations

@@ -1,3 +1,3 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""ROS-free mathematics of tracking; read ``tracker.py`` first, then ``batches.py``."""
+"""ROS-free mathematics of tracking; read ``batches``, ``tracker`` and ``update`` first."""

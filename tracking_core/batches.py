@@ -5,7 +5,7 @@ What does the tracker work on? Structs of arrays, one row per plot, track or pai
 
 Axis letters: T tracks, J modes of one plane, M plots, P gated pairs, n state, d coordinates of a
 plot. Empty batches are legal everywhere. All arrays are float64 in SI units and ENU axes unless a
-comment says otherwise. Read ``tracker.py`` next.
+comment says otherwise. Read ``tracker.py`` next: what becomes of one scan.
 """
 
 from __future__ import annotations

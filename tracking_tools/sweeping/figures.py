@@ -24,7 +24,6 @@ class Shown:
     title: str
     place: tuple[str, str]  # in the figures of a run
     is_distance: bool = False
-    is_loss: bool = True  # the larger the worse
 
     def of(self, figures: dict[str, Any]) -> float:
         """Return its value in one run, NaN where it is not known."""
@@ -40,7 +39,7 @@ class Shown:
 SHOWN = {
     'gospa': Shown('GOSPA', ('gospa', 'mean'), is_distance=True),
     'ospa': Shown('OSPA', ('ospa', 'mean'), is_distance=True),
-    'held': Shown('coverage', ('held', 'coverage'), is_loss=False),
+    'held': Shown('coverage', ('held', 'coverage')),
     'switches': Shown('id switches', ('held', 'id_switches')),
     'lasting': Shown('lasting switches', ('held', 'lasting_switches')),
     'false': Shown('false tracks', ('held', 'false_tracks')),
