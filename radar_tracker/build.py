@@ -10,7 +10,7 @@ from radar_tracker.sensor import Radar
 from tracking_core.association import ASSOCIATORS, DECIDING
 from tracking_core.composition import Setup
 from tracking_core.lifecycle import Lifecycle, LIFECYCLES
-from tracking_core.resolution import Resolution
+from tracking_core.unresolved.resolution import Resolution
 
 __all__ = ['build_planes', 'build_setup']
 

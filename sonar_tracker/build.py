@@ -21,7 +21,7 @@ from tracking_core.lifecycle import Lifecycle, LIFECYCLES
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.mode_chain import ModeChain
 from tracking_core.motion import RandomWalk
-from tracking_core.resolution import Resolution
+from tracking_core.unresolved.resolution import Resolution
 
 _SECONDS_PER_HOUR = 3600.0
 _START_SHARE = 0.5  # a new track may be this much less likely than one that is dropped

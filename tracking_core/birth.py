@@ -8,12 +8,12 @@ import numpy as np
 
 from tracking_core.association.clusters import renumber
 from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, State, Tracks
-from tracking_core.common_plots import places_of
 from tracking_core.composition import Density, Setup
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
 from tracking_core.linalg import inverse, sum_by_track, symmetrise
-from tracking_core.resolution import Resolution, within_limit
 from tracking_core.rows import change, concatenate, take
+from tracking_core.unresolved.resolution import Resolution, within_limit
+from tracking_core.unresolved.sets import places_of
 from tracking_core.update import Look
 
 _CLAIMED = 0.5  # a plot more likely than this from a known contact starts no other track

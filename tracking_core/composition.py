@@ -13,8 +13,8 @@ from tracking_core.batches import Floats, Mixture
 from tracking_core.estimators import Estimator, SeesFromSensor
 from tracking_core.lifecycle import Lifecycle
 from tracking_core.lifecycle_config import InitiationConfig, MergeConfig
-from tracking_core.resolution import Resolution, Resolving
 from tracking_core.sensing import Sensor
+from tracking_core.unresolved.resolution import Resolution, Resolving
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,12 @@ from scipy.special import expit
 
 from tracking_core.association.partitions import has_alternatives, over_partitions
 from tracking_core.batches import Association, Bools, Floats, Scan
-from tracking_core.common_plots import Common
 from tracking_core.composition import Density, Setup
 from tracking_core.kalman import log
 from tracking_core.lifecycle import existence_after
 from tracking_core.linalg import sum_by_track
 from tracking_core.pairing import Gated
+from tracking_core.unresolved.sets import Common
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from tracking_core.pairing import Gated, pair, thresholds
 from tracking_core.prediction import longest_lag, next_passes, predict_tracks, Predicted
 from tracking_core.rows import change, take, take_of_both
 from tracking_core.sharing import Share, share_plots
-from tracking_core.unresolved import add_common
+from tracking_core.unresolved.common_pairs import add_common
 
 _LOST = 10.0  # strange plots expected in the gate of a track that is no track any more
 

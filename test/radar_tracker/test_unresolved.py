@@ -18,7 +18,7 @@ from radar_tracker.tracker import RadarTracker
 from tracking_core.association import JOINT
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values
-from tracking_core.resolution import near_pairs, Places
+from tracking_core.unresolved.resolution import near_pairs, Places
 from tracking_tools.scenarios import Contact, Leg, Legs, Scenario
 from tracking_tools.scenarios import Radar as SimulatedRadar
 from tracking_tools.scenarios.plots import plots as simulated

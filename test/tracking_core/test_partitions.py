@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 import pytest
 
 from tracking_core.association.partitions import over_partitions
-from tracking_core.grouping import group_tracks, Groups, LARGEST, Links
+from tracking_core.unresolved.grouping import group_tracks, Groups, LARGEST, Links
 
 
 def sets_of(links, held, tracks):

@@ -14,12 +14,12 @@ from sonar_tracker.build import build_setup
 from sonar_tracker.config import SensorConfig, SonarTrackerConfig
 from sonar_tracker.sensor import Sonar
 from tracking_core.batches import Bearings, Coverage, Mixture, Scan, Tracks
-from tracking_core.common_plots import as_one
 from tracking_core.composition import Density
 from tracking_core.config import with_values
-from tracking_core.grouping import group_tracks, Links
 from tracking_core.platform import pose_at
-from tracking_core.resolution import near_pairs, Places, Resolution, within_limit
+from tracking_core.unresolved.grouping import group_tracks, Links
+from tracking_core.unresolved.resolution import near_pairs, Places, Resolution, within_limit
+from tracking_core.unresolved.sets import as_one
 from tracking_core.update import look
 
 LIMIT = 0.04

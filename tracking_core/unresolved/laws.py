@@ -9,14 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracking_core.batches import Floats, Ints, Scan
-from tracking_core.common_plots import Common, Sets
 from tracking_core.composition import Setup
 from tracking_core.gating import box_pairs, sector_pairs
-from tracking_core.grouping import Groups
 from tracking_core.linalg import inverse, nearest_turn
 from tracking_core.pairing import thresholds
 from tracking_core.prediction import longest_lag, Predicted
-from tracking_core.resolution import Places, Resolution
+from tracking_core.unresolved.grouping import Groups
+from tracking_core.unresolved.resolution import Places, Resolution
+from tracking_core.unresolved.sets import Common, Sets
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def candidates(
     d = noise.shape[1]
     noise = noise + np.diag(np.array(scan.excess)[:d])
     own = np.sqrt(bound * np.einsum('tdd->td', places.covariance + noise))[groups.member]
-    blur = sets.covariance + resolution.spread * sets.spread + noise[leader]
+    blur = _blur(sets, resolution) + noise[leader]
     half = np.sqrt(bound * np.einsum('bdd->bd', blur))
     low = np.minimum(np.minimum.reduceat(sets.place - own, sets.start), sets.mean - half)
     high = np.maximum(np.maximum.reduceat(sets.place + own, sets.start), sets.mean + half)
@@ -77,31 +77,26 @@ def compare(
     resolution: Resolution,
     found: tuple[Ints, Ints, Floats],
 ) -> Laws:
-    """Weigh the laws by which each set may have made the plots `found`: sets, plots, lags."""
-    bound = _bound(scan, setup)
-    row, plot, lag = found
-    z = near(scan.position[plot], sets.mean[row], setup)
-    R = scan.covariance[plot]
-    blur = sets.covariance + resolution.spread * sets.spread
-    mean = sets.mean[row] + sets.velocity[row] * lag[:, None]
-    of_all = _log_gaussian(z - mean, blur[row] + R, bound) + np.log1p(-resolution.capture)
+    """
+    Weigh the laws by which each set may have made the plots `found`: sets, plots, lags.
 
-    pair = np.repeat(np.arange(len(row)), sets.size[row])
-    member = sets.start[row[pair]] + _rank(pair)
-    track, share = groups.member[member], sets.share[member]
-    own = sets.place[member] + places.velocity[track] * lag[pair, None]
-    of_one = _log_gaussian(z[pair] - own, places.covariance[track] + R[pair], bound)
-    of_one = of_one + np.log(resolution.capture * share)
+    Pairs of a set and a plot that no law explains are left out.
+    """
+    row, plot, _ = found
+    mean, of_all = _made_by_all(sets, scan, setup, resolution, found)
+    pair, member, own, of_one = _made_by_one(places, sets, groups, scan, setup, resolution, found)
     top = of_all.copy()
     np.maximum.at(top, pair, of_one)
     heard = np.isfinite(top)
-    if not heard.all():  # no law has it: look again without these
-        rest = row[heard], plot[heard], lag[heard]
-        return compare(places, sets, groups, scan, setup, resolution, rest)
+    row, plot, mean, of_all, top = row[heard], plot[heard], mean[heard], of_all[heard], top[heard]
+    rows = heard[pair]
+    member, own, of_one = member[rows], own[rows], of_one[rows]
+    pair = (np.cumsum(heard) - 1)[pair[rows]]
     total = top + np.log(
         np.exp(of_all - top) + np.bincount(pair, np.exp(of_one - top[pair]), len(top))
     )
-    blurred = blur[row[pair]] - share[:, None, None] ** 2 * places.covariance[track]
+    share, P = sets.share[member], places.covariance[groups.member[member]]
+    blurred = _blur(sets, resolution)[row[pair]] - share[:, None, None] ** 2 * P
     return Laws(
         row, plot, total,
         pair=np.concatenate([pair, pair]),
@@ -112,6 +107,43 @@ def compare(
         part=np.exp(np.concatenate([of_all[pair], of_one]) - np.tile(total[pair], 2)),
         alone=np.repeat([0, 1], len(pair)),
     )  # fmt: skip
+
+
+def _blur(sets: Sets, resolution: Resolution) -> Floats:
+    """Return how sure (B, d, d) the place of a plot of all members is, without its own noise."""
+    return sets.covariance + resolution.spread * sets.spread
+
+
+def _made_by_all(
+    sets: Sets, scan: Scan, setup: Setup, resolution: Resolution,
+    found: tuple[Ints, Ints, Floats],
+) -> tuple[Floats, Floats]:  # fmt: skip
+    """Return where all members together would make the plot (Q, d), and its log density (Q,)."""
+    row, plot, lag = found
+    mean = sets.mean[row] + sets.velocity[row] * lag[:, None]
+    z = near(scan.position[plot], sets.mean[row], setup)
+    S = _blur(sets, resolution)[row] + scan.covariance[plot]
+    return mean, _log_gaussian(z - mean, S, _bound(scan, setup)) + np.log1p(-resolution.capture)
+
+
+def _made_by_one(
+    places: Places, sets: Sets, groups: Groups, scan: Scan, setup: Setup, resolution: Resolution,
+    found: tuple[Ints, Ints, Floats],
+) -> tuple[Ints, Ints, Floats, Floats]:  # fmt: skip
+    """
+    Return the same for each member that may have drowned the others.
+
+    Its pair and row of the groups' members (R,), where it would make the plot (R, d), log density.
+    """
+    row, plot, lag = found
+    pair = np.repeat(np.arange(len(row)), sets.size[row])
+    member = sets.start[row[pair]] + _rank(pair)
+    track = groups.member[member]
+    own = sets.place[member] + places.velocity[track] * lag[pair, None]
+    z = near(scan.position[plot], sets.mean[row], setup)[pair]
+    S = places.covariance[track] + scan.covariance[plot][pair]
+    density = _log_gaussian(z - own, S, _bound(scan, setup))
+    return pair, member, own, density + np.log(resolution.capture * sets.share[member])
 
 
 def as_common(laws: Laws, sets: Sets, groups: Groups) -> Common:

@@ -12,7 +12,7 @@ from scipy.special import ndtr
 
 from tracking_core.batches import Bools, Coverage, Floats, Ints
 from tracking_core.gating import box_pairs, sector_pairs
-from tracking_core.grouping import Links
+from tracking_core.unresolved.grouping import Links
 
 _SIGMAS = 3.0  # tracks further apart than the limit and so many sd are not looked at
 _LARGEST_CHANCE = 1.0 - 1e-6  # nothing is certain: the logarithm of what is left must be finite

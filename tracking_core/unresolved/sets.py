@@ -11,10 +11,10 @@ import numpy as np
 from tracking_core.association.partitions import Partitions
 from tracking_core.batches import Floats, Ints, Mixture
 from tracking_core.composition import Plane
-from tracking_core.grouping import Groups
 from tracking_core.linalg import nearest_turn
 from tracking_core.pairing import axes_of
-from tracking_core.resolution import Places
+from tracking_core.unresolved.grouping import Groups
+from tracking_core.unresolved.resolution import Places
 
 _LOG_PER_DECIBEL = 0.1 * np.log(10.0)
 

@@ -17,15 +17,15 @@ import numpy as np
 
 from tracking_core import measurement
 from tracking_core.batches import Floats, Innovations, Mixture, Pairs, Scan
-from tracking_core.common_laws import as_common, candidates, compare, Laws, near
-from tracking_core.common_plots import as_one, Common, places_of
 from tracking_core.composition import Plane, Setup
-from tracking_core.grouping import group_tracks, Groups, Links
 from tracking_core.kalman import mixture_log_likelihood
 from tracking_core.pairing import Gated
 from tracking_core.prediction import Predicted
-from tracking_core.resolution import interference, near_pairs, Places
 from tracking_core.rows import concatenate, put, take
+from tracking_core.unresolved.grouping import group_tracks, Groups, Links
+from tracking_core.unresolved.laws import as_common, candidates, compare, Laws, near
+from tracking_core.unresolved.resolution import interference, near_pairs, Places
+from tracking_core.unresolved.sets import as_one, Common, places_of
 
 
 def add_common(
