@@ -35,6 +35,14 @@ class Tracker(Protocol):
     def turn(self) -> float:
         """Return the time of one turn of the antenna [s], 0 if it is not known to turn."""
 
+    @property
+    def is_ready(self) -> bool:
+        """Return whether tracks may be ordered."""
+
+    @property
+    def sensor_position(self) -> tuple[float, float, float]:
+        """Return where the sensor was at its last look, tracking frame [m]."""
+
     def save(self) -> Any:
         """Return what `restore` takes to go back to this moment."""
 

@@ -13,18 +13,22 @@ from msg_adapters.frames import TrackingFrame
 from tracking_core.batches import Floats
 
 
-def to_position(msg: Any, frame: TrackingFrame, reach: float) -> Floats:
+def to_position(
+    msg: Any, frame: TrackingFrame, sensor: tuple[float, float, float], reach: float
+) -> Floats:
     """
     Return the position (3,) [m] of a PointStamped in the tracking frame.
 
     Raises
     ------
     BadMessage
-        For another frame, or a coordinate that is no number or beyond `reach` [m].
+        For another frame, or a coordinate that is no number or beyond `reach` [m] of the sensor's.
 
     """
     position = np.array([msg.point.x, msg.point.y, msg.point.z])
     frame.check_point(msg.header.frame_id.lstrip('/'))
-    if not (np.abs(position) <= reach).all():
-        raise BadMessage('bad point', f'point is {position}, farther than {reach:g} m')
+    if not (np.abs(position - sensor) <= reach).all():
+        raise BadMessage(
+            'bad point', f'point is {position}, farther than {reach:g} m from the sensor'
+        )
     return position

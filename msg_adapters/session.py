@@ -64,8 +64,8 @@ class Session:
         for known in (self._follower.history, self.guard, self.whereabouts):
             known.reset()
         name, is_mounted = self._node_config.tracking_frame, self.instrument.is_mounted
-        by_tree = self.whereabouts.transforms is not None
-        self.frame = TrackingFrame(name, is_mounted, self.log.info, by_tree=by_tree)
+        self.frame = TrackingFrame(name, is_mounted, self.log.info)
+        self.frame.by_tree = self.whereabouts.transforms is not None
         self.stamp: Any = None  # of the last plots that were used
         self.mapping: dict[str, str] = {}
 
@@ -134,9 +134,8 @@ class Session:
         tracks = self._follower.step(plots, platform, self.frame)
         self._use(reading)
         self.stamp = msg.header.stamp
-        table = self.instrument.to_table(self.published, self.header())
-        self.published = tracks
-        return table
+        last, self.published = self.published, tracks
+        return self.instrument.to_table(last, self.header())
 
     def _accept(self, stamp: float, received: float) -> bool:
         """Return whether tracking must start anew; raises BadMessage, and counts what is late."""
@@ -177,13 +176,14 @@ class Session:
     def acquire(self, msg: Any) -> None:
         """Start a track where a user points."""
         try:
-            if self.stamp is None:
-                raise BadMessage('no scan yet', f'no {self.instrument.topic} have come yet')
-            position = to_position(msg, self.frame, self.instrument.reach)
-            most = self.instrument.tracker.config.max_tracks
+            tracker, topic = self.instrument.tracker, self.instrument.topic
+            if self.stamp is None or not tracker.is_ready:
+                raise BadMessage('no scan yet', f'no {topic} have come yet')
+            place, reach = tracker.sensor_position, self.instrument.reach
+            position, most = to_position(msg, self.frame, place, reach), tracker.config.max_tracks
             if len(self.tracks) >= most:
                 raise BadMessage('no room', f'there are {most} tracks already (max_tracks)')
-            track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
+            track_id = tracker.start_track(position, seconds(self.stamp))
             self._follower.history.close()
             self.log.info(f'track {track_id} started at {position} m')
         except BadMessage as error:

@@ -13,15 +13,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from radar_tracker.rotation import find_rate, IN_STEP, TWO_PI
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import wrap_angle
 
-TWO_PI = 2.0 * np.pi
-_IN_STEP = 0.97  # mean resultant length of azimuth minus antenna; 1: every plot on the beam
 ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
 _SAMPLES = 400  # plots remembered while learning
-PERIODS = (0.4, 60.0)  # of antennas [s]
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _STILL = 1e-9  # part of the rate by which it may change and still stand
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
@@ -131,7 +129,7 @@ class Antenna:
     def _learn(self, time: Floats, azimuth: Floats) -> None:
         """Follow the rate, or find it."""
         if not (self._stares or self._rate) and len(time) and np.ptp(time) == 0.0:
-            self._stares = bool(np.abs(np.exp(1j * azimuth).mean()) < _IN_STEP)
+            self._stares = bool(np.abs(np.exp(1j * azimuth).mean()) < IN_STEP)
         if self._stares:
             return
         if len(time) > _SAMPLES // 2:
@@ -145,7 +143,10 @@ class Antenna:
         if self._rate:
             self._refine()
         elif (self._period or self._has_directions()) and self._is_worth_a_try():
-            self._find(span)
+            interval = self._interval if self._full_turns and not self._collects else 0.0
+            self._rate = find_rate(self._time, self._azimuth, self._period, interval)
+            if self._rate:
+                self._refine()
 
     def _has_directions(self) -> bool:
         """Return whether plots came from all over; a lone contact fits many rates."""
@@ -155,26 +156,6 @@ class Antenna:
         """Return whether to look for a rate: costly, so less and less often in vain."""
         self._tries += 1
         return self._tries <= _EAGER or self._tries % _EAGER == 0
-
-    def _find(self, span: float) -> None:
-        """Find the rate at which all remembered plots lie on the beam, if there is one."""
-        if self._period:
-            candidates = TWO_PI / self._period * np.array([1.0, -1.0])
-        else:
-            step = 0.25 * TWO_PI / span / 2.0
-            rates = np.arange(TWO_PI / PERIODS[1], TWO_PI / PERIODS[0], step)
-            candidates = np.concatenate([rates, -rates])
-        in_step = self._in_step(candidates)
-        best = int(np.argmax(in_step))
-        if in_step[best] > (_IN_STEP if self._period else 0.6):
-            self._rate = float(candidates[best])
-            self._refine()
-
-    def _in_step(self, rates: Floats) -> Floats:
-        middle = self._time - self._time.mean()
-        return np.asarray(
-            np.abs(np.exp(1j * (self._azimuth - rates[:, None] * middle)).mean(axis=1))
-        )
 
     def _refine(self) -> None:
         """Fit the rate to the remembered plots; forget it when they are not on the beam."""
@@ -187,6 +168,6 @@ class Antenna:
             self._rate += step
             if abs(step) < _STILL * abs(self._rate):
                 break
-        if np.hypot(sine, cosine) < _IN_STEP * len(t):
+        if np.hypot(sine, cosine) < IN_STEP * len(t):
             self._rate = 0.0
             self._time, self._azimuth = self._time[-50:], self._azimuth[-50:]

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tracking_core.batches import Floats
+from tracking_core.batches import Floats, Plots
 
 BIAS_LIMIT = 0.4  # of r s^2 / s_r, beyond which the bent noise of far plots is straightened out
 
@@ -128,3 +128,19 @@ def _elevation_sd(sd: Floats) -> Floats:
 def _columns(polar: Floats) -> tuple[Floats, Floats, Floats]:
     elevation = polar[:, 2] if polar.shape[1] == 3 else np.zeros(len(polar))
     return polar[:, 0], polar[:, 1], elevation
+
+
+def azimuth_of(plots: Plots, is_polar: bool) -> Floats:
+    """Return the azimuths (M,) [rad]."""
+    x, y, _ = plots.position.T
+    return plots.azimuth if is_polar else np.asarray(np.arctan2(y, x))
+
+
+def farthest(plots: Plots, is_polar: bool, dimensions: int) -> float:
+    """Return how far the farthest of the plots (M > 0,) is from the sensor [m]."""
+    if is_polar:
+        return float(plots.range.max())
+    x, y, z = plots.position.T
+    ground = np.hypot(x, y)
+    slant = np.hypot(ground, z) if dimensions == 3 else ground
+    return float(np.fmax(ground, slant).max())  # z may be NaN

@@ -12,7 +12,7 @@ from radar_tracker.sensor import Radar
 from radar_tracker.tracker import RadarTracker
 from tracking_core.tracker import Tracker
 
-KEPT = ('_latest_stamp', '_is_known', '_farthest', '_collected', '_last_coverage')
+KEPT = ('_is_known', '_farthest', '_last_coverage')
 
 
 def remember(tracker: RadarTracker) -> dict[str, Any]:
@@ -24,6 +24,7 @@ def remember(tracker: RadarTracker) -> dict[str, Any]:
         'is_polar': radar.is_polar,
         'antenna': dict(vars(mine['_antenna'])),
         'sectors': dict(vars(tracker.sectors)),
+        'turns': dict(vars(mine['_turns'])) if mine['_turns'] is not None else {},
         'state': tracker.state,
         **{name: mine[name] for name in KEPT},
     }
@@ -41,4 +42,6 @@ def recall(tracker: RadarTracker, memory: dict[str, Any]) -> None:
     core.state = memory['state']
     vars(vars(tracker)['_antenna']).update(memory['antenna'])
     vars(tracker.sectors).update(memory['sectors'])
+    if memory['turns']:
+        vars(vars(tracker)['_turns']).update(memory['turns'])
     vars(tracker).update({name: memory[name] for name in KEPT})

@@ -7,12 +7,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from radar_tracker.antenna import Sweep
 from radar_tracker.config import MountConfig, SensorConfig
 from tracking_core.batches import Coverage, Floats, Plots
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
+
+_LEAST_UPRIGHT = 0.1  # of the deck's normal; a radar that lies on its side sees no horizon
 
 
 def sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats | None, Floats]:
@@ -29,9 +32,32 @@ def sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats | None, 
     return turn, pose.position + platform @ place
 
 
+def arm_velocity(pose: PlatformPose, mount: MountConfig) -> Floats:
+    """Return how fast the sensor moves (M, 3) [m/s] because the platform turns it round."""
+    arm = np.array([mount.x, mount.y, mount.z])
+    if not (arm.any() and pose.turn_rate.any()):
+        return np.zeros_like(pose.velocity)
+    return np.asarray(np.einsum('mij,mj->mi', pose.rotation, np.cross(pose.turn_rate, arm)))
+
+
+def levelled(turn: Floats, place: Floats) -> Floats:
+    """
+    Return rotations (M, 3, 3) about the vertical for what a fan beam saw at places (M, 3).
+
+    The fan of a 2-D radar stands on the platform's deck. It meets the horizon where the deck's
+    normal and the direction on the deck span it; the range is the one over the ground, however
+    the platform rolls.
+    """
+    normal = turn[:, :, 2]
+    ray = np.einsum('mij,mj->mi', turn[:, :, :2], place[:, :2])
+    ray = ray - (ray[:, 2] / np.maximum(normal[:, 2], _LEAST_UPRIGHT))[:, None] * normal
+    angle = np.arctan2(ray[:, 1], ray[:, 0]) - np.arctan2(place[:, 1], place[:, 0])
+    return np.asarray(Rotation.from_euler('z', angle[:, None]).as_matrix())
+
+
 def in_sensor_axes(plots: Plots, pose: PlatformPose, mount: MountConfig) -> Plots:
     """
-    Return plots whose directions are true ones, own ship's heading in them, in the sensor's axes.
+    Return plots whose directions are true ones, own ship's attitude in them, in the sensor's axes.
 
     Parameters
     ----------
@@ -43,16 +69,34 @@ def in_sensor_axes(plots: Plots, pose: PlatformPose, mount: MountConfig) -> Plot
         How the sensor is turned.
 
     """
-    heading = pose.yaw + mount.yaw
-    c, s = np.cos(heading), np.sin(heading)
-    back = np.stack([np.stack([c, s], axis=1), np.stack([-s, c], axis=1)], axis=1)
-    # Heights, which may be NaN, are left out and do not spread.
-    place, noise = plots.position.copy(), plots.position_covariance.copy()
-    place[:, :2] = np.einsum('mij,mj->mi', back, place[:, :2])
-    noise[:, :2, :] = back @ noise[:, :2, :]
-    noise[:, :, :2] = noise[:, :, :2] @ np.swapaxes(back, 1, 2)
-    azimuth = wrap_angle(plots.azimuth - heading)
-    return replace(plots, azimuth=azimuth, position=place, position_covariance=noise)
+    turn, _ = sensor_pose(pose, mount)
+    if turn is None:
+        return plots
+    back = np.swapaxes(turn, 1, 2)
+    e, a = np.nan_to_num(plots.elevation), plots.azimuth
+    ray = np.stack([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)], axis=1)
+    x, y, z = np.einsum('mij,mj->mi', back, ray).T
+    azimuth, elevation = np.arctan2(y, x), np.arcsin(np.clip(z, -1.0, 1.0))
+    elevation = np.where(np.isnan(plots.elevation), np.nan, elevation)
+    place, noise = _turned_back(back, plots.position), plots.position_covariance.copy()
+    # What the noise has to do with heights, which may be NaN, is left out and does not spread.
+    level = Rotation.from_euler('z', -(pose.yaw + mount.yaw)[:, None]).as_matrix()[:, :2, :2]
+    noise[:, :2, :] = level @ noise[:, :2, :]
+    noise[:, :, :2] = noise[:, :, :2] @ np.swapaxes(level, 1, 2)
+    return replace(
+        plots, azimuth=azimuth, elevation=elevation, position=place, position_covariance=noise
+    )
+
+
+def _turned_back(back: Floats, position: Floats) -> Floats:
+    """Return places (M, 3) in other axes; without a height the distance over the ground stays."""
+    is_flat = np.isnan(position[:, 2])
+    place = np.einsum('mij,mj->mi', back, np.where(np.isnan(position), 0.0, position))
+    ground = np.hypot(position[:, 0], position[:, 1])
+    stretch = ground / np.maximum(np.hypot(place[:, 0], place[:, 1]), 1e-9)
+    place[is_flat, :2] *= stretch[is_flat, None]
+    place[is_flat, 2] = np.nan
+    return np.where(np.isnan(position[:, :1]), np.nan, place)
 
 
 def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Coverage:

@@ -15,8 +15,9 @@ import math
 import numpy as np
 
 from msg_adapters.bad_message import BadMessage
-from radar_tracker.antenna import Beam, ONE_DIRECTION, PERIODS, TWO_PI
+from radar_tracker.antenna import Beam, ONE_DIRECTION
 from radar_tracker.config import ScanConfig
+from radar_tracker.rotation import PERIODS, TWO_PI
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import wrap_angle
 

@@ -8,13 +8,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from radar_tracker import mounting
 from radar_tracker.config import SensorConfig
 from radar_tracker.conversion import linearised, to_cartesian, to_polar
-from radar_tracker.mounting import platform_noise, PlatformDoubt, sensor_pose
+from radar_tracker.mounting import PlatformDoubt
 from radar_tracker.told import excess, NOTHING, tell_noise
 from tracking_core.batches import Coverage, Floats, Plots, Scan
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
+
+_LEAST_DEPTH = 1.0  # m, of plot space: the only plot so far may lie at `range_min`
 
 
 @dataclass(frozen=True)
@@ -52,6 +55,7 @@ class Radar:
     def plot_space_volume(self, range_max: float) -> float:
         """Return the volume of plot space out to a range [m]: m rad, m rad^2, m^2 or m^3."""
         c = self.config
+        range_max = max(range_max, c.range_min + _LEAST_DEPTH)
         depth = range_max - c.range_min
         height = c.elevation_span if self.dimensions == 3 else 1.0
         if self.is_polar:
@@ -130,13 +134,14 @@ class Radar:
         """
         d = self.dimensions
         local, covariance = self._local(plots)
-        turn, origin = sensor_pose(pose, self.config.mount)
+        turn, origin = mounting.sensor_pose(pose, self.config.mount)
         offset = local
         if turn is not None:
+            turn = turn if d == 3 else mounting.levelled(turn, local)
             offset = np.einsum('mij,mj->mi', turn, local, order='F')
             covariance = turn @ covariance @ np.swapaxes(turn, 1, 2)
         position = offset + origin
-        covariance = covariance + platform_noise(pose, offset)
+        covariance = covariance + mounting.platform_noise(pose, offset)
         if d == 3:
             unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
             position[unknown, 2] = np.nan
@@ -151,7 +156,7 @@ class Radar:
             snr=plots.snr,
             clutter_volume=self._clutter_volume(local[:, :d]),
             sensor_position=origin,
-            sensor_velocity=pose.velocity,
+            sensor_velocity=pose.velocity + mounting.arm_velocity(pose, self.config.mount),
             coverage=coverage,
             volume=volume,
             excess=excess(covariance, self.noise(position, coverage)) if told else NOTHING,
@@ -164,14 +169,9 @@ class Radar:
             told, usual = plots.position_covariance, c.position_sd**2 * np.eye(3)
             return _or_like(plots.position, np.zeros(3)), _or_like(told, usual)
         polar = np.stack([plots.range, plots.azimuth, np.nan_to_num(plots.elevation)], axis=1)
-        sd = np.stack(
-            [
-                _or(plots.range_sd, c.range_sd),
-                _or(plots.azimuth_sd, c.azimuth_sd),
-                _or(plots.elevation_sd, c.elevation_sd),
-            ],
-            axis=1,
-        )
+        sd = np.empty((M, 3))
+        sd[:, 0], sd[:, 1] = _or(plots.range_sd, c.range_sd), _or(plots.azimuth_sd, c.azimuth_sd)
+        sd[:, 2] = _or(plots.elevation_sd, c.elevation_sd)
         position, covariance = np.zeros((M, 3), order='F'), np.zeros((M, 3, 3), order='F')
         covariance[:, 2, 2] = 1.0
         position[:, :d], covariance[:, :d, :d] = to_cartesian(polar[:, :d], sd[:, :d])

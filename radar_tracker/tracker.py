@@ -10,15 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from radar_tracker.antenna import Antenna, Beam, TWO_PI
+from radar_tracker.antenna import Antenna, Beam
 from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.conversion import azimuth_of, farthest
 from radar_tracker.mounting import coverage_of, PlatformDoubt
+from radar_tracker.rotation import TWO_PI
 from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
+from radar_tracker.turns import Turns
 from tracking_core.batches import Coverage, Floats, Plots, State, Tracks
 from tracking_core.platform import Platform, pose_at
-from tracking_core.rows import concatenate
 from tracking_core.tracker import Tracker
 
 
@@ -45,11 +47,10 @@ class RadarTracker:
             collects=scan.assembly == 'rotation',
         )
         self.sectors = SectorClock(scan)
-        self._latest_stamp = np.nan  # of the messages that are collected to turns
+        self._turns = Turns(scan.period) if scan.assembly == 'rotation' else None
         self._radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
         self._is_known = False  # which radar it is
         self._farthest = 0.0  # plot so far [m]
-        self._collected: Plots | None = None
         self._last_coverage = Coverage(0.0, 0.0)
         self._tracker = Tracker(build_setup(self.config, self._radar))
         self._tracker.reset(next_id)
@@ -89,6 +90,16 @@ class RadarTracker:
     def dimensions(self) -> int:
         """2 or 3, as configured or as the first plots told."""
         return self._radar.dimensions
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether tracks may be ordered: their dimensions are known."""
+        return self._is_known or self.config.sensor.dimensions > 0
+
+    @property
+    def sensor_position(self) -> tuple[float, float, float]:
+        """Where the radar was at its last look, tracking frame [m]."""
+        return self._last_coverage.sensor_position
 
     def plot_noise(self, position: Floats) -> Floats:
         """Return the covariance (K, d, d) [m^2] of a plot at each of these places (K, 3) [m]."""
@@ -141,12 +152,13 @@ class RadarTracker:
 
         """
         self._recognise(plots)
-        collected = self._collect(plots)
+        rate = self._antenna.rotation_rate
+        collected = self._turns.add(plots, rate) if self._turns is not None else plots
         if collected is None:
             return self.tracks
         pose = pose_at(platform, collected.time)
         self._allow_for(PlatformDoubt.of(pose) if platform is not None else None)
-        sweep = self._antenna.follow(collected, self._azimuth(collected), beam)
+        sweep = self._antenna.follow(collected, azimuth_of(collected, self._radar.is_polar), beam)
         ends = pose_at(platform, np.array([sweep.start_time, sweep.end_time]))
         coverage = self._last_coverage = coverage_of(sweep, ends, self.config.sensor)
         volume = self._radar.plot_space_volume(self._farthest or self.config.sensor.range_max)
@@ -160,38 +172,25 @@ class RadarTracker:
             self._radar = Radar.for_plots(self.config.sensor, plots)
             tracker = Tracker(build_setup(self.config, self._radar))
             tracker.reset(self.state.next_id)
+            if self.is_ready and len(self.tracks):  # ordered ones, of these dimensions
+                tracker.state = self.state
             self._tracker, self._is_known = tracker, True
-        distance = plots.range
-        if not self._radar.is_polar:
-            x, y, z = plots.position.T
-            distance = np.hypot(x, y)
-            if self.dimensions == 3:
-                distance = np.fmax(distance, np.hypot(distance, z))  # z may be NaN
-        self._farthest = max(self._farthest, float(distance.max()))
+        self._see(farthest(plots, self._radar.is_polar, self.dimensions))
+
+    def _see(self, distance: float) -> None:
+        """
+        Take note how far the radar is known to see.
+
+        It saw so far all the time: the false plots that were counted are of the larger space.
+        """
+        before = self._radar.plot_space_volume(self._farthest)
+        if distance > self._farthest > 0.0:
+            share = before / self._radar.plot_space_volume(distance)
+            self.state = replace(self.state, clutter_density=self.state.clutter_density * share)
+        self._farthest = max(self._farthest, distance)
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:
         """Open the gates for what own ship does not know of itself."""
         if doubt is not self._radar.doubt:
             self._radar = replace(self._radar, doubt=doubt)
             self._tracker.setup = self._tracker.setup.with_sensor(self._radar)
-
-    def _collect(self, plots: Plots) -> Plots | None:
-        """Return the plots of a full turn when sectors are to be collected, or the message."""
-        if self.config.scan.assembly != 'rotation':
-            return plots
-        joined = plots if self._collected is None else concatenate(self._collected, plots)
-        first = plots.stamp if self._collected is None else self._collected.stamp
-        rate = abs(self._antenna.rotation_rate)
-        period = self.config.scan.period or (TWO_PI / rate if rate else 0.0)
-        self._collected = replace(joined, stamp=first)
-        ahead = plots.stamp - self._latest_stamp  # when this message will be over
-        self._latest_stamp = plots.stamp
-        if plots.stamp + np.nan_to_num(ahead) - first < period * (1.0 - 1e-3):
-            return None
-        turn, self._collected = self._collected, None
-        return turn
-
-    def _azimuth(self, plots: Plots) -> Floats:
-        if self._radar.is_polar:
-            return plots.azimuth
-        return np.asarray(np.arctan2(plots.position[:, 1], plots.position[:, 0]))

@@ -61,7 +61,11 @@ class SensorConfig:
         'cannot tell left from right',
     )  # fmt: skip
     bearing_sd: float = parameter(
-        0.01, unit='rad', doc='bearing noise of marks that do not tell theirs', low=1e-6, high=0.5
+        0.01,
+        unit='rad',
+        low=1e-6,
+        high=0.5,
+        doc='bearing noise of marks that do not tell theirs (linear array: at broadside)',
     )
     bearing_sd_min: float = parameter(
         0.0, unit='rad', doc='marks that tell less are not believed', low=0.0, high=0.5

@@ -45,8 +45,10 @@ class Sonar:
 
     def noise(self, position: Floats, coverage: Coverage) -> Floats:
         """Return the variance (T, 1, 1) expected at bearings (T, 1) [rad^2]."""
-        sd = self.usual_sd or self.config.bearing_sd
-        return np.full((len(position), 1, 1), sd**2)
+        if self.usual_sd:  # as the marks tell it
+            return np.full((len(position), 1, 1), self.usual_sd**2)
+        sd = self.config.bearing_sd * self._blur(position - self._axis(coverage))
+        return np.asarray(sd[:, :, None] ** 2)
 
     def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
         """Return 1 (T,): plots are bearings already."""
@@ -73,11 +75,13 @@ class Sonar:
 
     def reach(self, position: Floats, coverage: Coverage) -> Floats:
         """Return from what distance (T, 1) on nothing is one mark with a contact here [rad]."""
-        limit = np.full(position.shape, self.config.bearing_resolution)
-        if self.config.array == 'linear':
-            sine = np.abs(np.sin(position - self._axis(coverage)))
-            limit = limit / np.maximum(sine, _LEAST_SINE)
-        return limit
+        return self.config.bearing_resolution * self._blur(position - self._axis(coverage))
+
+    def _blur(self, bearing: Floats) -> Floats:
+        """Return how much wider a beam is at these angles from the axis than at broadside."""
+        if self.config.array != 'linear':
+            return np.ones_like(bearing)
+        return np.asarray(1.0 / np.maximum(np.abs(np.sin(bearing)), _LEAST_SINE))
 
     def _axis(self, coverage: Coverage) -> float:
         return coverage.sector_centre - self.config.sector_centre
@@ -116,5 +120,5 @@ class Sonar:
     def mark_sd(self, marks: Bearings) -> Floats:
         """Return the sd of each mark (M,), the parameter's where the mark does not tell [rad]."""
         told = np.isfinite(marks.bearing_sd) & (marks.bearing_sd > 0.0)
-        sd = np.where(told, marks.bearing_sd, self.config.bearing_sd)
+        sd = np.where(told, marks.bearing_sd, self.config.bearing_sd * self._blur(marks.bearing))
         return np.maximum(sd, self.config.bearing_sd_min)

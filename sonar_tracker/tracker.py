@@ -97,6 +97,16 @@ class SonarTracker:
         """One: the bearing."""
         return 1
 
+    @property
+    def is_ready(self) -> bool:
+        """Whether tracks may be ordered: always."""
+        return True
+
+    @property
+    def sensor_position(self) -> tuple[float, float, float]:
+        """Where the sonar was at its last cycle, tracking frame [m]."""
+        return self._coverage.sensor_position
+
     def reset(self) -> None:
         """Forget all but the next id, as after a restart."""
         self._forget(self.state.next_id)

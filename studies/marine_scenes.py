@@ -170,4 +170,5 @@ def _pose(own: Floats, gyro: Floats) -> PlatformPose:
         velocity=np.zeros((T, 3)),
         position_covariance=np.zeros((T, 3, 3)),
         yaw_variance=np.full(T, GYRO**2),
+        turn_rate=np.zeros((T, 3)),
     )

@@ -61,7 +61,8 @@ def with_range_rate(
     Append range rate as one more component of the plane: u (v - v_sensor) along the line of sight.
 
     Velocity outside the plane is taken as predicted, its variance added to the noise; so is what
-    the noise of the plot's position does to the line of sight.
+    the noise of the plot's position does to the line of sight: it swings it, and so turns what the
+    contact moves across it, as seen from the sensor, into range rate.
 
     Parameters
     ----------
@@ -86,9 +87,11 @@ def with_range_rate(
     outside = (sight * velocity)[:, ~inside].sum(axis=1)
     value = scan.range_rate[rows] + platform - outside
 
+    relative = velocity - scan.sensor_velocity[rows, :d]
+    across = relative - (relative * sight).sum(axis=1)[:, None] * sight
     noise = np.nan_to_num(scan.covariance[rows])
-    across = np.einsum('pd,pde,pe->p', velocity, noise, velocity) / distance**2
-    variance = scan.range_rate_variance[rows] + across
+    swing = np.einsum('pd,pde,pe->p', across, noise, across) / distance**2
+    variance = scan.range_rate_variance[rows] + swing
     variance += (sight**2 * velocity_variance)[:, ~inside].sum(axis=1)
 
     row = np.zeros((len(pairs), 1, measurement.matrix.shape[2]))

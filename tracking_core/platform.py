@@ -17,6 +17,9 @@ from scipy.spatial.transform import Rotation
 
 from tracking_core.batches import Floats
 
+_RATE_SPAN = 0.5  # s, between the samples that a rate is taken from
+_SHORTEST = 1e-6  # s, between two samples
+
 
 class StalePlatform(ValueError):  # noqa: N818 (it is the platform's data that are stale)
     """No sample of the platform is near enough to the wanted time; says age and limit."""
@@ -31,6 +34,7 @@ class PlatformPose:
     velocity: Floats  # (M, 3) tracking frame [m/s]
     position_covariance: Floats  # (M, 3, 3) [m^2]
     yaw_variance: Floats  # (M,) [rad^2]
+    turn_rate: Floats  # (M, 3) about the platform's axes [rad/s]
 
     @property
     def yaw(self) -> Floats:
@@ -102,7 +106,7 @@ class Platform:
         if len(times) == 0:
             return PlatformPose(
                 np.zeros((0, 3)), np.zeros((0, 4)), np.zeros((0, 3)), np.zeros((0, 3, 3)),
-                np.zeros(0),
+                np.zeros(0), np.zeros((0, 3)),
             )  # fmt: skip
         after = np.clip(np.searchsorted(self.time, times), 1, max(len(self) - 1, 1))
         before, after = after - 1, np.minimum(after, len(self) - 1)
@@ -111,17 +115,38 @@ class Platform:
             times - self.time[before], span, out=np.zeros(len(times)), where=span > 0.0
         )
         inner = np.clip(share, 0.0, 1.0)
-        # Beyond the samples the platform goes on as its nearest sample moves.
+        # Beyond the samples the platform goes on as its nearest sample moves, and as it turns.
         beyond = times - np.clip(times, self.time[0], self.time[-1])
+        turn_rate = self._turn_rate(times)
+        orientation = _turn(self.orientation, before, after, inner)
+        if beyond.any():
+            on = Rotation.from_rotvec(beyond[:, None] * turn_rate)
+            orientation = (Rotation.from_quat(orientation) * on).as_quat()
         velocity = _between(self.velocity, before, after, inner)
         position = _between(self.position, before, after, inner)
         return PlatformPose(
             position=position + beyond[:, None] * velocity,
-            orientation=_turn(self.orientation, before, after, share),
+            orientation=orientation,
             velocity=velocity,
             position_covariance=_between(self.position_covariance, before, after, inner),
             yaw_variance=_between(self.yaw_variance, before, after, inner),
+            turn_rate=turn_rate,
         )
+
+    def _turn_rate(self, times: Floats) -> Floats:
+        """
+        Return how fast the platform turns (M, 3), from samples at least `_RATE_SPAN` apart.
+
+        The rate of two samples that follow each other at once is their noise.
+        """
+        first, last = self.time[0], self.time[-1]
+        begin = np.clip(times - 0.5 * _RATE_SPAN, first, max(last - _RATE_SPAN, first))
+        one = np.searchsorted(self.time, begin, side='right') - 1
+        other = np.minimum(np.searchsorted(self.time, begin + _RATE_SPAN), len(self) - 1)
+        start = Rotation.from_quat(self.orientation[one])
+        turn = (start.inv() * Rotation.from_quat(self.orientation[other])).as_rotvec()
+        span = np.maximum(self.time[other] - self.time[one], _SHORTEST)
+        return np.asarray(turn / span[:, None])
 
     def _check(self, times: Floats) -> None:
         if len(times) and not len(self):
@@ -148,6 +173,7 @@ def pose_at(platform: Platform | None, times: Floats) -> PlatformPose:
         velocity=np.zeros((M, 3)),
         position_covariance=np.zeros((M, 3, 3)),
         yaw_variance=np.zeros(M),
+        turn_rate=np.zeros((M, 3)),
     )
 
 
@@ -162,7 +188,7 @@ def _between(values: Floats, before: Any, after: Any, share: Floats) -> Floats:
 
 
 def _turn(orientation: Floats, before: Any, after: Any, share: Floats) -> Floats:
-    """Turn evenly from one sample to the next, and on beyond the last at the same rate."""
+    """Turn evenly from one sample to the next."""
     start = Rotation.from_quat(orientation[before])
     turn = (start.inv() * Rotation.from_quat(orientation[after])).as_rotvec()
     return np.asarray((start * Rotation.from_rotvec(share[:, None] * turn)).as_quat())

@@ -15,7 +15,7 @@ from msg_adapters.frames import TrackingFrame
 from msg_adapters.plots import to_plots
 from msg_adapters.table import Columns
 from radar_tracker.config import MountConfig, SensorConfig
-from radar_tracker.mounting import in_sensor_axes, sensor_pose
+from radar_tracker.mounting import in_sensor_axes, levelled, sensor_pose
 from tracking_core.batches import Floats, Plots
 from tracking_core.platform import Platform, pose_at
 from tracking_tools.bags import MAX_ROWS
@@ -61,6 +61,9 @@ class PlotPlaces:
         turn, origin = sensor_pose(pose, mount)
         place = _local(plots)
         if turn is not None:
+            told = np.isfinite(plots.elevation) | np.isfinite(plots.position[:, 2])
+            if self.sensor.dimensions == 2 or not told.any():
+                turn = levelled(turn, place)
             place = np.einsum('mij,mj->mi', turn, place)
         x, y, _ = (place + origin).T
         return {

@@ -136,3 +136,24 @@ def test_follow_makes_up_no_rotation_from_one_contact(rotation: str) -> None:
         scene = Scenario(radar, (contact,), 200.0)
         follow(antenna, [plots for plots, _ in messages(scene, np.random.default_rng(3))])
         assert antenna.rotation_rate == 0.0
+
+
+@pytest.mark.parametrize(
+    'bearings', [(29, 209), (29, 119), (29, 149, -91), (0, 72, 144, 216, 288)]
+)
+@pytest.mark.parametrize('period', [2.5, 4.0, 10.0])
+def test_few_contacts_at_rest_teach_no_wrong_rotation(
+    bearings: tuple[float, ...], period: float
+) -> None:
+    """Whole turns may lie between their plots, either way round: the right rate, or none."""
+    antenna, azimuth = Antenna(0.0, True, 'start'), np.radians(np.array(bearings, np.float64))
+    azimuth = np.sort((azimuth + np.pi) % (2.0 * np.pi) - np.pi)[::-1]  # clockwise from behind
+    rng = np.random.default_rng(1)
+    for turn in range(60):
+        time = period * (turn + (np.pi - azimuth) / (2.0 * np.pi))
+        seen = rng.random(len(azimuth)) < 0.9
+        noisy = azimuth[seen] + rng.normal(0.0, 0.002, seen.sum())
+        plots = Plots.polar(time[seen], np.full(seen.sum(), 1e4), noisy)
+        antenna.follow(replace(plots, stamp=period * turn), noisy)
+    right = -2.0 * np.pi / period
+    assert antenna.rotation_rate in (0.0, pytest.approx(right, rel=1e-3))

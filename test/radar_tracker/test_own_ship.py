@@ -4,6 +4,7 @@
 
 from dataclasses import replace
 import logging
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -177,6 +178,7 @@ def poses(position_covariance, yaw_variance, yaw):
         velocity=np.zeros((3, 3)),
         position_covariance=np.tile(position_covariance, (3, 1, 1)),
         yaw_variance=np.full(3, yaw_variance),
+        turn_rate=np.zeros((3, 3)),
     )
 
 
@@ -251,3 +253,18 @@ def test_ordered_track_starts_with_the_noise_of_its_place_before_own_ship():
     P = tracker.tracks.planes[0].covariance[-1, 0]
     noise = tracker.plot_noise(place[None])[0]
     np.testing.assert_allclose(P[np.ix_([0, 2], [0, 2])], noise, rtol=1e-9)
+
+
+def test_point_to_track_is_judged_from_own_ship():
+    """Far from the origin of the frame, as in a grid of a country: near own ship is near."""
+    config = with_values(RadarTrackerConfig(), {'sensor.range_max': 50e3})
+    radar = radar_session(config, radar_node_config(), TYPES, logging.getLogger('own ship'))
+    for time in (1000.0, 1001.0):
+        radar.ownship(odometry(time, (500e3, 5000e3), 0.0), 0.0)
+    columns = {'range': np.array([9e3]), 'azimuth': np.array([1.0])}
+    radar.plots(from_columns(columns, 1001.0, 'radar', TYPES), 0.0)
+    for ahead in (10e3, 60e3):
+        point = TYPES.Point(x=500e3 + ahead, y=5000e3, z=0.0)
+        radar.acquire(SimpleNamespace(header=TYPES.header(1001.0, 'odom'), point=point))
+    assert len(radar.tracks) == 1
+    assert radar.counts['acquire'].refused['bad point'] == 1

@@ -76,8 +76,13 @@ def test_with_range_rate_measures_along_the_line_of_sight() -> None:
     assert_allclose(full.matrix[0] @ state, full.value[0], rtol=1e-12)
     noise = scan.covariance[0]
     expected = 4.0 + 2.0 * sight[2] ** 2
-    expected += velocity[0] @ noise @ velocity[0] / (offset @ offset)
-    assert_allclose(full.covariance[0, 2], [0.0, 0.0, expected])
+    relative = velocity[0] - [0.0, 5.0, 0.0]
+    slope = [
+        (relative @ (offset + step) / np.linalg.norm(offset + step) - relative @ sight) / 1e-4
+        for step in 1e-4 * np.eye(3)
+    ]
+    expected += slope @ noise @ slope
+    assert_allclose(full.covariance[0, 2], [0.0, 0.0, expected], rtol=1e-6)
 
 
 def test_with_range_rate_ignores_plots_without() -> None:

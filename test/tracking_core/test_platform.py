@@ -50,7 +50,9 @@ def test_rotation_turns_platform_axes_to_tracking_axes():
     """Oracle: scipy's Rotation; heading alone is a turn about the vertical."""
     turns = Rotation.random(10, random_state=3)
     nothing = np.zeros((10, 3))
-    pose = PlatformPose(nothing, turns.as_quat(), nothing, np.zeros((10, 3, 3)), np.zeros(10))
+    pose = PlatformPose(
+        nothing, turns.as_quat(), nothing, np.zeros((10, 3, 3)), np.zeros(10), nothing
+    )
     np.testing.assert_allclose(pose.rotation, turns.as_matrix(), atol=1e-12)
 
 
@@ -103,3 +105,22 @@ def test_many_samples_at_once_are_as_one_by_one():
     at_once = Platform.empty(capacity=3).add(*samples)
     np.testing.assert_array_equal(at_once.time, [2.0, 3.0, 4.0])
     np.testing.assert_array_equal(at_once.position, one_by_one.position)
+
+
+@pytest.mark.parametrize('rate', [10.0, 200.0])
+def test_heading_beyond_the_samples_does_not_swing_with_their_noise(rate):
+    """0.5 mrad of noise become no more than four times as many 1.5 s later, at any rate."""
+    rng, errors = np.random.default_rng(1), []
+    for _ in range(200):
+        times = np.arange(0.0, 2.0, 1.0 / rate)
+        platform = of(*(sample(t, yaw=0.1 * t + rng.normal(0.0, 5e-4)) for t in times[-150:]))
+        errors.append(platform.at(times[-1:] + 1.5).yaw[0] - 0.1 * (times[-1] + 1.5))
+    assert np.std(errors) < 4.5 * 5e-4 * np.sqrt(2.0)
+
+
+def test_turn_rate_is_that_of_the_platform():
+    """About its own axes, between the samples and beyond."""
+    platform = of(*(sample(t, yaw=0.3 * t) for t in np.arange(0.0, 3.0, 0.1)))
+    pose = platform.at(np.array([-0.5, 0.0, 1.23, 2.9, 4.0]))
+    np.testing.assert_allclose(pose.turn_rate, np.tile([0.0, 0.0, 0.3], (5, 1)), atol=1e-9)
+    np.testing.assert_allclose(pose.yaw, 0.3 * np.array([-0.5, 0.0, 1.23, 2.9, 4.0]), atol=1e-9)

@@ -1,0 +1,67 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""At which rate did the antenna turn, if all these plots were on its beam?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tracking_core.batches import Floats
+
+TWO_PI = 2.0 * np.pi
+PERIODS = (0.4, 60.0)  # of antennas [s]
+IN_STEP = 0.97  # mean resultant length of azimuth minus antenna; 1: every plot on the beam
+_NEARLY = 0.6  # the same of a candidate, which may be off by a part of the step between them
+_USUAL = 0.1  # part by which a turn may differ from the interval between full turns
+_RIVAL = 0.05  # resultant length by which a rate must fit better than any quite different one
+_STEPS = 8  # candidates from the top of a fit to its first zero
+_NEIGHBOURS = 12  # candidates to either side of one that are no different rate
+
+
+def find_rate(time: Floats, azimuth: Floats, period: float, interval: float) -> float:
+    """
+    Return the rate [rad/s], anticlockwise positive, or 0 if none fits, or several do.
+
+    Parameters
+    ----------
+    time, azimuth : (M,) arrays
+        Of the plots, not all of one time [s, rad].
+    period : float
+        Of a turn, if it is known, else 0 [s].
+    interval : float
+        Between messages, if each is a full turn, else 0 [s].
+
+    """
+    if period:
+        candidates = TWO_PI / period * np.array([1.0, -1.0])
+        fit, least = in_step(time, azimuth, candidates), IN_STEP
+    else:
+        step = TWO_PI / np.ptp(time) / _STEPS
+        rates = np.arange(TWO_PI / PERIODS[1], TWO_PI / PERIODS[0], step)
+        candidates = np.concatenate([-rates[::-1], rates])
+        fit, least = _plausible(candidates, in_step(time, azimuth, candidates), interval), _NEARLY
+    best = int(np.argmax(fit))
+    return float(candidates[best]) if fit[best] > least else 0.0
+
+
+def in_step(time: Floats, azimuth: Floats, rates: Floats) -> Floats:
+    """Return the mean resultant length (R,) of azimuth minus antenna at each rate (R,)."""
+    middle = time - time.mean()
+    return np.asarray(np.abs(np.exp(1j * (azimuth - rates[:, None] * middle)).mean(axis=1)))
+
+
+def _plausible(rates: Floats, fit: Floats, interval: float) -> Floats:
+    """
+    Return how well the rates fit, 0 for all if quite different ones fit as well.
+
+    Two contacts at rest fit many: turns may lie between them, either way round. If messages are
+    full turns, the rate of the messages is tried first.
+    """
+    turns = np.abs(rates) * interval / TWO_PI
+    usual = np.where(np.abs(turns - 1.0) < _USUAL, fit, 0.0)
+    if usual.max() > fit.max() - _RIVAL:
+        fit = usual
+    best = int(np.argmax(fit))
+    apart = np.abs(np.arange(len(rates)) - best) > _NEIGHBOURS
+    is_sure = fit[apart].max(initial=0.0) < fit[best] - _RIVAL
+    return fit if is_sure else np.zeros_like(fit)

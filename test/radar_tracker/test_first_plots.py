@@ -1,0 +1,72 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the very first plots teach must not stand in the way of the next ones."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.tracker import RadarTracker
+from tracking_core.batches import Plots
+from tracking_core.config import with_values
+
+PERIOD = 4.0  # [s]
+PLACE = np.array([10_000.0, 0.0, 0.0])
+
+
+def tracker_of(**values):
+    """Return a radar tracker with these parameters, underscores for points."""
+    named = {name.replace('__', '.'): value for name, value in values.items()}
+    return RadarTracker(with_values(RadarTrackerConfig(), named))
+
+
+def scan(number, distance, azimuth):
+    """Return the plots of one look."""
+    time = np.full(len(distance), PERIOD * number)
+    return replace(Plots.polar(time, np.array(distance), np.array(azimuth)), stamp=PERIOD * number)
+
+
+@pytest.mark.parametrize('nearest', [0.0, 50.0, 100.0])
+def test_near_echo_alone_at_first_does_not_keep_tracks_from_starting(nearest):
+    """One plot just beyond `range_min`, then three contacts: confirmed as soon as without it."""
+    needed = []
+    for first in (nearest + 1.0, 20e3):
+        tracker = tracker_of(sensor__range_min=nearest)
+        tracker.track(scan(0, [first], [1.0]))
+        for number in range(1, 60):
+            flown = 100.0 * PERIOD * number
+            distance = np.hypot([8e3 + flown, 12e3, 15e3], [0.0, flown, -flown])
+            tracks = tracker.track(scan(number, distance, [0.0, 1.5, -2.0]))
+            if tracks.confirmed.sum() >= 3:
+                break
+        needed.append(number)
+    assert needed[0] == needed[1] < 8
+
+
+def test_plot_at_the_least_range_is_a_plot():
+    """As the only plot so far it leaves no depth to count false plots in."""
+    tracker = tracker_of(sensor__range_min=100.0)
+    for number in range(3):
+        tracker.track(scan(number, [100.0], [1.0]))
+    assert np.isfinite(tracker.state.clutter_density)
+
+
+def test_ordered_track_outlives_the_first_plots():
+    """Ordered while the radar saw nothing; the first plot is of it."""
+    tracker = tracker_of(sensor__dimensions=2)
+    tracker.track(scan(0, [], []))
+    assert tracker.is_ready
+    number = tracker.start_track(PLACE, 0.0)
+    tracks = tracker.track(scan(1, [1e4], [0.0]))
+    assert tracks.id.tolist() == [number]
+    assert tracks.hits[0] > 0
+
+
+def test_tracks_are_not_ordered_before_it_is_known_what_they_are():
+    """2-D or 3-D: a parameter or the first plots tell."""
+    tracker = tracker_of()
+    assert not tracker.is_ready
+    tracker.track(scan(0, [1e4], [0.0]))
+    assert tracker.is_ready
