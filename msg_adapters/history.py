@@ -62,7 +62,7 @@ class History:
         ):
             self._floor, self._steps = self._steps[0].stamp, self._steps[1:]
 
-    def after(self, stamp: float) -> tuple[Step, ...]:
+    def take_after(self, stamp: float) -> tuple[Step, ...]:
         """Take out the messages that are newer than this stamp, and return them."""
         later = tuple(step for step in self._steps if step.stamp > stamp)
         self._steps = self._steps[: len(self._steps) - len(later)]

@@ -57,7 +57,7 @@ class Follower:
         """
         tracker = self._instrument.tracker
         before, now, history = tracker.state, tracker.save(), copy(self.history)
-        later = self.history.after(plots.stamp)
+        later = self.history.take_after(plots.stamp)
         tracker.restore(later[0].memory)
         first = tracker.state.next_id
         try:

@@ -123,7 +123,7 @@ class Session:
         self.frame.check_plots(plots.frame, reading.is_polar)
         if len(plots):
             self.instrument.check(self.frame, self.ledger.warn)
-        platform = self.whereabouts.of(self.instrument.moments(plots), self.frame)
+        platform = self.whereabouts.covering(self.instrument.moments(plots), self.frame)
         if history.takes(plots.stamp) and not self.guard.is_going_back:
             self._follower.insert(plots, platform, self.frame)
             self._use(reading)

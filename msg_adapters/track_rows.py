@@ -5,10 +5,10 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import gammaincinv
 
 from msg_adapters.table import Columns
 from tracking_core.batches import Bools, Tracks
+from tracking_core.chances import chi_square_bound
 from tracking_core.rows import concatenate, take
 
 TENTATIVE, CONFIRMED, DELETED = 0, 1, 2  # of the column `status`
@@ -58,11 +58,6 @@ def common_columns(rows: Tracks, deleted: Bools, stamp: float, gate_probability:
         'gate_volume': rows.gate_volume.astype(single),
         **_mode_columns(rows),
     }
-
-
-def chi_square_bound(probability: float, degrees: int) -> float:
-    """Return what a chi-square variable stays below with this probability."""
-    return float(2.0 * gammaincinv(0.5 * degrees, probability))
 
 
 def _mode_columns(tracks: Tracks) -> Columns:

@@ -69,7 +69,7 @@ class Whereabouts:
         self.platform = self.platform.add(sample)
         return has_leapt
 
-    def of(self, times: Floats, frame: TrackingFrame) -> Platform | None:
+    def covering(self, times: Floats, frame: TrackingFrame) -> Platform | None:
         """
         Return a path of the sensor's platform that covers these times (K,) [s], if one is needed.
 
@@ -87,5 +87,5 @@ class Whereabouts:
             if (newest - samples.time[0] > self._config.time_jump_threshold).any():
                 self.platform = Platform.empty(self._config.ownship_timeout)
             self.platform = self.platform.add(samples)
-        self.platform.at(times)
+        self.platform.at(times)  # raises where they are not covered
         return self.platform

@@ -10,11 +10,11 @@ from functools import cached_property
 import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
+from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
 from tracking_core.estimators import Estimator, SeesFromSensor
 from tracking_core.linalg import sum_by_track
 
 _COLUMNS = 2  # of `Mixture.memory`, the last ones: bearing [rad], weight [1/rad^2]
-_FOUND = 0.5  # a look in which a mark is less likely says nothing of the contact
 _ALONE = 0.1  # marks that follow the track by less or more than 1 by this are of others too
 
 
@@ -83,11 +83,11 @@ def _mark(
     bearing = mixture.mean[track, at, 0] + innovations.innovation[row, at, 0] / h
     R = np.maximum(innovations.covariance[row, at, 0, 0] - h * cross, 0.0) / h**2
     found = sum_by_track(association.probability, track, T)
-    share = association.probability / np.maximum(found, 1e-300)[track]
+    share = association.probability / np.maximum(found, TINY)[track]
     mean = sum_by_track(share * bearing, track, T)
     variance = sum_by_track(share * (R + (bearing - mean[track]) ** 2), track, T)
     alone = sum_by_track(share * (np.abs(h - 1.0) < _ALONE), track, T)
-    told = (found > _FOUND) & (alone > _FOUND) & (variance > 0.0)
+    told = (found > MORE_LIKELY_THAN_NOT) & (alone > MORE_LIKELY_THAN_NOT) & (variance > 0.0)
     weight = np.where(told, found / np.where(told, variance, 1.0), 0.0)
     return np.stack([mean, weight], axis=1)
 

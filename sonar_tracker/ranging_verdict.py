@@ -13,6 +13,7 @@ from sonar_tracker.ranging_config import RangingConfig
 from sonar_tracker.ranging_fit import Fit
 from sonar_tracker.ranging_model import courses, distances, Legs
 from tracking_core.batches import Bools, Floats, Ints
+from tracking_core.chances import TINY
 from tracking_core.linalg import inverse, symmetrise
 
 _UNKNOWNS = 4
@@ -44,7 +45,7 @@ def judge(best: Fit, legs: Legs, config: RangingConfig) -> Verdict:
     even if the contact strays from its course a little, and if the residuals are as small and as
     white as those of a straight course.
     """
-    scale = 1.0 / np.sqrt(np.maximum(np.einsum('taa->ta', best.information), 1e-300))
+    scale = 1.0 / np.sqrt(np.maximum(np.einsum('taa->ta', best.information), TINY))
     unit = best.information * scale[:, :, None] * scale[:, None, :]
     sound = np.linalg.cond(unit) < _WORST_CONDITION
     unit = np.where(sound[:, None, None], unit, np.eye(_UNKNOWNS))

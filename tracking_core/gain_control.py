@@ -16,10 +16,9 @@ import numpy as np
 
 from tracking_core.alpha_beta import GainFilter
 from tracking_core.batches import Association, Bools, Floats, Innovations, Ints, Mixture
+from tracking_core.chances import MORE_LIKELY_THAN_NOT
 from tracking_core.gains import noise_gain, on_axes, steady_covariance
 from tracking_core.linalg import sum_by_track
-
-_HIT = 0.5  # a look with a plot less likely than this tells a detector nothing
 
 
 @dataclass(frozen=True)
@@ -138,5 +137,5 @@ def surprise(distance: Floats, track: Ints, association: Association) -> tuple[F
     T = len(association.miss)
     found = 1.0 - association.miss
     total = sum_by_track(association.probability * distance, track, T)
-    hit = np.asarray(found > _HIT)
-    return np.where(hit, total / np.maximum(found, _HIT), 0.0), hit
+    hit = np.asarray(found > MORE_LIKELY_THAN_NOT)
+    return np.where(hit, total / np.maximum(found, MORE_LIKELY_THAN_NOT), 0.0), hit

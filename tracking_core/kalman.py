@@ -7,11 +7,11 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
+from tracking_core.chances import log, TINY
 from tracking_core.linalg import inverse, over_modes, sum_by_track, symmetrise
 from tracking_core.rows import take_rows
 
 _LOG_TWO_PI = float(np.log(2.0 * np.pi))
-_LEAST_MODE_PROBABILITY = 1e-300  # divides nothing by zero; such a mode has no weight anyway
 _ROUNDING = 64 * float(np.finfo(np.float64).eps)  # of the variances before a plot
 
 
@@ -66,11 +66,6 @@ def mixture_log_likelihood(mode_probability: Floats, innovations: Innovations) -
         return np.asarray(top + np.log(over_modes(np.add, np.exp(weight - top[:, None]))))
 
 
-def log(probability: Floats) -> Floats:
-    """Return the logarithm, with the least float for 0."""
-    return np.asarray(np.log(np.maximum(probability, _LEAST_MODE_PROBABILITY)))
-
-
 def kalman_gain(innovations: Innovations) -> Floats:
     """Return K = P H^T S^-1 (P, J, n, d)."""
     S_inverse, _ = inverse(innovations.covariance)
@@ -118,7 +113,7 @@ def condition(
     weight = np.exp(weight - over_modes(np.maximum, weight)[:, None])
     weight *= (association.probability / over_modes(np.add, weight))[:, None]  # (P, J)
     posterior = association.miss[:, None] * prior + sum_by_track(weight, track, T)
-    safe = np.maximum(posterior, _LEAST_MODE_PROBABILITY)
+    safe = np.maximum(posterior, TINY)
     weight = weight / take_rows(safe, track)
 
     K, C = kalman_gain(innovations) if gain is None else gain, innovations.cross_covariance
@@ -140,6 +135,6 @@ def condition(
     return Mixture(
         mean=mixture.mean + mean_shift,
         covariance=symmetrise(covariance),
-        mode_probability=posterior / np.maximum(total, _LEAST_MODE_PROBABILITY),
+        mode_probability=posterior / np.maximum(total, TINY),
         memory=mixture.memory,
     )

@@ -13,9 +13,9 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from scipy.special import gammaincinv
 
 from tracking_core.batches import Association, Floats, Innovations, Ints
+from tracking_core.chances import chi_square_bound
 from tracking_core.gains import benedict_bordner, on_axes
 from tracking_core.linalg import sum_by_track
 
@@ -60,4 +60,4 @@ def lag_covariance(excess: Floats, alpha: Floats, interval: Floats) -> Floats:
 @lru_cache(maxsize=8)
 def _bound(axes: int) -> float:
     """Return what the squared innovation stays below without a lag."""
-    return float(2.0 * gammaincinv(0.5 * axes, 1.0 - _FALSE_ALARM))
+    return chi_square_bound(1.0 - _FALSE_ALARM, axes)

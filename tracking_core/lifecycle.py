@@ -10,11 +10,11 @@ from typing import Protocol
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints, Mixture, Tracks
+from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
 from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
 from tracking_core.rows import change
 
 _HISTORY = (1 << 60) - 1  # looks remembered as bits
-_MORE_THAN_NOT = 0.5
 _OUTSIDE_LOOKS = 5  # looks outside the coverage after which a track has left
 
 
@@ -57,7 +57,7 @@ class Existence:
 
     def hits(self, found: Floats, before: Mixture, after: Mixture) -> Bools:
         """Return which tracks (T,) more probably than not have a plot."""
-        return np.asarray(found > _MORE_THAN_NOT)
+        return np.asarray(found > MORE_LIKELY_THAN_NOT)
 
     def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""
@@ -77,7 +77,7 @@ class MOfN:
 
     def hits(self, found: Floats, before: Mixture, after: Mixture) -> Bools:
         """Return which tracks (T,) more probably than not have a plot."""
-        return np.asarray(found > _MORE_THAN_NOT)
+        return np.asarray(found > MORE_LIKELY_THAN_NOT)
 
     def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""
@@ -156,7 +156,7 @@ def existence_after(
     """
     unseen = miss * (1.0 - detection) * prior / (1.0 - detection * prior)
     existence = found + unseen
-    return existence, unseen / np.maximum(existence, 1e-300)
+    return existence, unseen / np.maximum(existence, TINY)
 
 
 def count_looks(tracks: Tracks, hit: Bools) -> Tracks:

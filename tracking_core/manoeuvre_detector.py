@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.special import gammaincinv
 
 from tracking_core.batches import Association, Bools, Floats, Innovations, Ints, Mixture
+from tracking_core.chances import chi_square_bound
 from tracking_core.gain_control import ControlledGain, surprise
 
 _CALM = 2.0  # plots in a row below the bound that end a manoeuvre
@@ -52,7 +52,7 @@ class Detector:
         return self._bound(1)
 
     def _bound(self, axes: int) -> float:
-        return float(np.sqrt(2.0 * gammaincinv(0.5 * axes, 1.0 - self.false_alarm)))
+        return float(np.sqrt(chi_square_bound(1.0 - self.false_alarm, axes)))
 
     def judge(
         self,

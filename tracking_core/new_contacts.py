@@ -10,6 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from tracking_core.batches import Floats, Seeds
+from tracking_core.chances import TINY
 from tracking_core.composition import Density
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import determinant, inverse
@@ -49,7 +50,7 @@ class Odds:
 
     def of_plots(self, plots: Seeds) -> Floats:
         """Return P_D over the density of other plots (M,), of plots that may be a contact's."""
-        others = np.maximum(self.density.total * plots.clutter_volume, 1e-300)
+        others = np.maximum(self.density.total * plots.clutter_volume, TINY)
         return np.asarray(self.detection_probability * plots.free / others)
 
     def of_steps(self, noise: Floats, step: Floats, dt: Floats) -> Floats:

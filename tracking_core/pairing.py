@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.special import gammaincinv
 
 from tracking_core import measurement
 from tracking_core.batches import Floats, Innovations, Ints, Mixture, Pairs, Scan
+from tracking_core.chances import chi_square_bound
 from tracking_core.composition import Plane
 from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.kalman import mixture_log_likelihood
@@ -52,8 +52,8 @@ class Gated:
 @lru_cache(maxsize=64)
 def thresholds(probability: float, dimensions: int) -> Floats:
     """Return chi-square bounds by number of components of a plot, 0 to `dimensions` + 1."""
-    halves = 0.5 * np.arange(1, dimensions + 2)
-    return np.concatenate([[0.0], 2.0 * gammaincinv(halves, probability)])
+    bounds = [chi_square_bound(probability, count) for count in range(1, dimensions + 2)]
+    return np.array([0.0, *bounds])
 
 
 def open_gates(

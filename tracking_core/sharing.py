@@ -11,8 +11,8 @@ from scipy.special import expit
 
 from tracking_core.association.partitions import has_alternatives, over_partitions
 from tracking_core.batches import Association, Bools, Floats, Scan
+from tracking_core.chances import log, TINY
 from tracking_core.composition import Density, Setup
-from tracking_core.kalman import log
 from tracking_core.lifecycle import existence_after
 from tracking_core.linalg import sum_by_track
 from tracking_core.pairing import Gated
@@ -81,7 +81,7 @@ def share_plots(
     claim = shared.probability * exists
     found = sum_by_track(claim, track, len(existence)) + hidden
     posterior, missed = existence_after(existence, shared.miss, found, detection)
-    safe = np.maximum(posterior, 1e-300)
+    safe = np.maximum(posterior, TINY)
     given = Association(claim / safe[track], missed + hidden / safe, shared.approximate)
     if common is not None:  # a plot of all is claimed once, not by each of its tracks
         claim = claim / np.append(common.law_size, 1)[gated.common]  # own: -1

@@ -68,7 +68,8 @@ class Tracker:
         Follow all contacts through one scan.
 
         A track is worked on once the antenna has passed it; plots of passes that are not over yet
-        wait for the next scan.
+        wait for the next scan. What a look does (predict, gate, share, update, judge) is in
+        `update.look`; here is what becomes of all tracks and plots of the scan.
 
         Parameters
         ----------
@@ -85,18 +86,26 @@ class Tracker:
         if state.held is not None:
             scan = concatenate(state.held, scan)
         interval = _interval(scan, state)
-        density = self._density(scan, interval)
+        density = self._density(state, scan, interval)
         seen = self._look(state.tracks, scan, density)
         born, seeds, used = start_tracks(scan, seen, density, interval, self.setup, state)
 
-        living, doubled = end_doubles(
-            seen.tracks, seen.passed, self.setup.merge, self.setup.sensor.is_angular,
-            is_unresolved=self.setup.resolution is not None,
-        )  # fmt: skip
-        kept = take(living, ~doubled)
+        kept, merged = self._without_doubles(seen)
         room = max(self.setup.max_tracks - len(kept), 0)
         fitting = born if len(born) <= room else take(born, slice(0, room))
-        clutter, looks = self._clutter(scan, seen, used)
+        clutter, looks = self._clutter(state, scan, seen, used)
+        report = StepReport(
+            plots=len(scan),
+            held=int(seen.waiting.sum()),
+            pairs=seen.pairs,
+            approximate=seen.approximate,
+            started=len(fitting),
+            merged=len(merged),
+            refused=len(born) - len(fitting),
+            broken=seen.broken,
+            clutter_density=density.clutter,
+            deleted=np.concatenate([silent, seen.ended, merged]),
+        )
         self.state = State(
             tracks=concatenate(kept, fitting) if len(fitting) else kept,
             seeds=seeds,
@@ -105,18 +114,7 @@ class Tracker:
             clutter_density=clutter,
             clutter_looks=looks,
             time=max(scan.coverage.end_time, state.time),
-            report=StepReport(
-                plots=len(scan),
-                held=int(seen.waiting.sum()),
-                pairs=seen.pairs,
-                approximate=seen.approximate,
-                started=len(fitting),
-                merged=int(doubled.sum()),
-                refused=len(born) - len(fitting),
-                broken=seen.broken,
-                clutter_density=density.clutter,
-                deleted=np.concatenate([silent, seen.ended, living.id[doubled]]),
-            ),
+            report=report,
         )
         return self.state.tracks
 
@@ -166,25 +164,30 @@ class Tracker:
             seen = seen.and_then(look(seen.tracks, scan, self.setup, density))
         return seen
 
-    def _density(self, scan: Scan, interval: float) -> Density:
+    def _without_doubles(self, seen: Look) -> tuple[Tracks, Ints]:
+        """Return the tracks without those that follow another's contact, and the ids of these."""
+        merge, is_unresolved = self.setup.merge, self.setup.resolution is not None
+        living, doubled = end_doubles(
+            seen.tracks, seen.passed, merge, self.setup.sensor.is_angular, is_unresolved
+        )
+        return take(living, ~doubled), living.id[doubled]
+
+    def _density(self, state: State, scan: Scan, interval: float) -> Density:
         """Return the sources of other plots, per unit of plot space and look."""
         volume = scan.volume
-        clutter = self.setup.clutter_density or self.state.clutter_density
+        clutter = self.setup.clutter_density or state.clutter_density
         if clutter == 0.0:
             clutter, _ = estimate_density(0.0, 0.0, len(scan), volume, 1.0)
         return Density(clutter, self.setup.new_contacts * interval / volume)
 
-    def _clutter(self, scan: Scan, seen: Look, used: float) -> tuple[float, float]:
+    def _clutter(self, state: State, scan: Scan, seen: Look, used: float) -> tuple[float, float]:
         """Return the estimate of the clutter density, and from how many looks it is."""
         unexplained = float((1.0 - seen.claimed[~seen.waiting]).clip(0.0).sum()) - used
         sweep = abs(scan.coverage.sweep)
         return estimate_density(
-            self.state.clutter_density,
-            self.state.clutter_looks,
-            max(unexplained, 0.0),
-            scan.volume,
+            state.clutter_density, state.clutter_looks, max(unexplained, 0.0), scan.volume,
             min(sweep / FULL_TURN, 1.0) if sweep else 1.0,
-        )
+        )  # fmt: skip
 
 
 def _interval(scan: Scan, state: State) -> float:

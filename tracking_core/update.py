@@ -16,6 +16,7 @@ from tracking_core.batches import (
     Scan,
     Tracks,
 )  # fmt: skip
+from tracking_core.chances import TINY
 from tracking_core.composition import Density, Setup
 from tracking_core.lifecycle import count_looks, has_left
 from tracking_core.linalg import is_positive_definite, sum_by_track
@@ -183,7 +184,7 @@ def _follow_level(tracks: Tracks, gated: Gated, share: Share, scan: Scan) -> Flo
         return tracks.level
     weight = np.where(told, share.association.probability, 0.0)
     total = sum_by_track(weight, track, T)
-    mean = sum_by_track(weight * np.where(told, snr, 0.0), track, T) / np.maximum(total, 1e-300)
+    mean = sum_by_track(weight * np.where(told, snr, 0.0), track, T) / np.maximum(total, TINY)
     old = np.where(np.isfinite(tracks.level), tracks.level, mean)
     gain = total * np.maximum(_LEVEL_GAIN, 1.0 / (1.0 + tracks.hits))
     return np.where((total > 0.5) | np.isfinite(tracks.level), old + gain * (mean - old), np.nan)

@@ -59,7 +59,7 @@ class LiveTopics:
         self._keeper = Keeper(self._session, configs)
         self._display, self._health = Display(self._types), Health(time.monotonic())
         self._clock_check = ClockCheck(node, self._topic)
-        self._level, self._is_active, self._is_heard = '', False, False
+        self._level, self._is_active, self._silence_is_told = '', False, False
         self._openings = Openings(node)
         try:
             self._open(self._openings, message_class(configs[1].input_type))
@@ -102,7 +102,7 @@ class LiveTopics:
     def activate(self) -> None:
         """Begin to track."""
         self._health = Health(time.monotonic())
-        self._is_active, self._is_heard = True, False
+        self._is_active, self._silence_is_told = True, False
 
     def deactivate(self) -> None:
         """Stop listening and clear the screens; tracks are kept."""
@@ -123,7 +123,7 @@ class LiveTopics:
         msg, info = self._inputs.freshest(self._topic, (msg, info), self._node_config.max_delay)
         for odometry in self._inputs.waiting('ownship'):  # it must be known at the plots' time
             self._on_ownship(*odometry)
-        self._health.plots_at, self._is_heard = time.monotonic(), True
+        self._health.plots_at, self._silence_is_told = time.monotonic(), True
         self._clock_check.compare(msg.header.stamp)
         self._waiting.take(msg, info)
 
@@ -175,8 +175,8 @@ class LiveTopics:
         now = time.monotonic()
         if self._session.stamp is not None:
             self._draw()
-        if self._is_active and not self._is_heard and now - self._health.started > QUIET:
-            self._is_heard = True
+        if self._is_active and not self._silence_is_told and now - self._health.started > QUIET:
+            self._silence_is_told = True
             silent = self._inputs.subscriptions[self._topic]
             self._node.get_logger().warning(explain_silence(self._node, silent))
         self._level = ''

@@ -42,7 +42,7 @@ def test_sectors_are_kept_for_three_turns():
 def test_memory_is_bounded():
     """However small the sectors are."""
     history = filled([1e-3 * k for k in range(1000)], turn=4.0)
-    assert len(history.after(-1.0)) == MOST
+    assert len(history.take_after(-1.0)) == MOST
 
 
 @pytest.mark.parametrize('scans', [0, 1, 5])
@@ -51,7 +51,7 @@ def test_as_many_scans_are_kept_as_the_parameter_says(scans):
     history = filled([4.0 * k for k in range(20)], scans)
     assert history.takes(4.0 * (19 - scans) + 1.0) == (scans > 0)
     assert not history.takes(4.0 * (18 - scans) + 1.0)
-    assert len(history.after(-1.0)) == scans
+    assert len(history.take_after(-1.0)) == scans
     assert not filled([0.0, 4.0], 0, turn=4.0).takes(2.0)
 
 

@@ -12,9 +12,9 @@ from scipy.stats import chi2
 from msg_adapters import message_types
 from msg_adapters.markers import to_markers
 from msg_adapters.odometry import to_odometry
-from msg_adapters.track_rows import chi_square_bound
 from msg_adapters.tracks import from_tracks, kinematics, to_bodies, to_track_columns
 from msg_adapters.trails import Trails
+from tracking_core.chances import chi_square_bound
 from tracking_core.rows import take
 
 OPTIONS = {'output': 'mmse', 'gate_probability': 0.99}

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.special import gammaincinv
 
 from tracking_core.alpha_beta import heard
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
+from tracking_core.chances import chi_square_bound
 from tracking_core.gain_control import ControlledGain, surprise
 from tracking_core.kalman import innovate
 
@@ -49,7 +49,7 @@ class AdaptiveAlphaBeta:
     @cached_property
     def bound(self) -> float:
         """Chi-square bound of the detector."""
-        return float(2.0 * gammaincinv(0.5 * self.axes, 1.0 - self.false_alarm))
+        return chi_square_bound(1.0 - self.false_alarm, self.axes)
 
     def start(self, mean: Floats, covariance: Floats) -> Mixture:
         """Return new tracks at the top of the ramp; memory: plots since then."""

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
+from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
 from tracking_core.kalman import innovate
 from tracking_core.linalg import sum_by_track
 
-_FOUND = 0.5  # a look in which a plot is less likely is no point of the line
 _LEAST_POINTS = 3  # are never forgotten: a track that is not seen keeps its line
 
 
@@ -66,12 +66,12 @@ class FiniteMemory:
         """Return the plane with the look as a new point of the line."""
         T = len(mixture.mean)
         found = 1.0 - association.miss
-        share = association.probability / np.maximum(found, 1e-300)[track]
+        share = association.probability / np.maximum(found, TINY)[track]
         bearing, R = _as_points(mixture, track, innovations)
         mean = sum_by_track(share * bearing, track, T)
         variance = sum_by_track(share * (R + (bearing - mean[track]) ** 2), track, T)
         memory = _unpacked(mixture).copy()
-        is_point = found > _FOUND
+        is_point = found > MORE_LIKELY_THAN_NOT
         left = (memory[:, 2, :-1] > 0.0).sum(axis=1)
         new = np.flatnonzero(is_point | (left >= _LEAST_POINTS))
         memory[new, :, 1:] = memory[new, :, :-1]

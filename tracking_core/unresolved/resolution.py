@@ -11,6 +11,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from tracking_core.batches import Bools, Coverage, Floats, Ints
+from tracking_core.chances import TINY
 from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.unresolved.grouping import Links
 
@@ -104,7 +105,7 @@ def _chance(
         step = np.zeros_like(a)
         step[:, axis] = sd[:, axis]
         further = resolution.sensor.separation(a, b + step, coverage)
-        slope[..., axis] = (further - apart) / np.maximum(sd[:, None, axis], 1e-300)
+        slope[..., axis] = (further - apart) / np.maximum(sd[:, None, axis], TINY)
     spread = np.sqrt(np.einsum('lca,lab,lcb->lc', slope, P, slope) + resolution.softness**2)
     inside = ndtr((1.0 - apart) / spread) - ndtr((-1.0 - apart) / spread)
     return np.asarray(inside.prod(axis=1))

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msg_adapters.table import Columns
-from msg_adapters.track_rows import chi_square_bound
 from tracking_core.batches import Floats
+from tracking_core.chances import chi_square_bound
 from tracking_tools.bearing_frame import frame_of_tracks
 from tracking_tools.bearing_scene import BearingScene
 from tracking_tools.scene import choose, Scene

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msg_adapters.table import Columns
-from msg_adapters.track_rows import chi_square_bound
 from tracking_core.batches import Floats
+from tracking_core.chances import chi_square_bound
 from tracking_tools.evaluation import Judgement
 from tracking_tools.evaluation.units import UNITS
 from tracking_tools.picture_style import COLOURS, FAINT, INK, PANEL, PROBABILITY, TURN

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from msg_adapters.track_rows import chi_square_bound
 from tracking_core.batches import Floats
+from tracking_core.chances import chi_square_bound
 from tracking_tools.scoring.accuracy import NAN
 
 BAND = (0.025, 0.975)  # 95 % between them
