@@ -10,11 +10,11 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from msg_adapters.azimuths import anticlockwise
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import BEARINGS, describe
 from msg_adapters.reading import read_fields, Reading, refuse_if_useless
 from msg_adapters.row_checks import bearing_checks, choose_rows, usable_values
-from tracking_core.azimuths import anticlockwise
 from tracking_core.batches import Bearings
 from tracking_core.linalg import wrap_angle
 from tracking_core.rows import take

@@ -16,6 +16,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from msg_adapters.azimuths import anticlockwise
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import AMBIGUOUS, describe, PLOTS
 from msg_adapters.message_types import MessageTypes
@@ -23,7 +24,6 @@ from msg_adapters.position_noise import position_covariance
 from msg_adapters.reading import Fields, read_fields, Reading, refuse_if_useless
 from msg_adapters.row_checks import choose_rows, plot_checks, usable_values
 from msg_adapters.table import from_columns
-from tracking_core.azimuths import anticlockwise
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import wrap_angle
 from tracking_core.rows import take

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from msg_adapters.azimuths import angle_unit, azimuth_convention, azimuth_reference
 from radar_tracker.estimator_config import AlphaBetaConfig, RADAR_ESTIMATORS
 from radar_tracker.motion_config import MotionConfig
 from tracking_core.association import ASSOCIATORS, JOINT
-from tracking_core.azimuths import angle_unit, azimuth_convention, azimuth_reference
 from tracking_core.config import parameter, validate
 from tracking_core.lifecycle_config import (
     ExistenceConfig,

@@ -12,36 +12,41 @@ from radar_tracker.sensor import Radar
 from radar_tracker.tracker import RadarTracker
 from tracking_core.tracker import Tracker
 
-KEPT = ('_is_known', '_farthest', '_last_coverage')
+PLAIN = ('is_known', 'farthest', 'coverage', 'state')
 
 
 def remember(tracker: RadarTracker) -> dict[str, Any]:
     """Return batches, numbers and dictionaries of them; nothing in them will change."""
-    mine = vars(tracker)
-    radar = mine['_radar']
     return {
-        'dimensions': radar.dimensions,
-        'is_polar': radar.is_polar,
-        'antenna': dict(vars(mine['_antenna'])),
-        'sectors': dict(vars(tracker.sectors)),
-        'turns': dict(vars(mine['_turns'])) if mine['_turns'] is not None else {},
-        'state': tracker.state,
-        **{name: mine[name] for name in KEPT},
+        'dimensions': tracker.radar.dimensions,
+        'is_polar': tracker.radar.is_polar,
+        'antenna': tracker.antenna.remember(),
+        'sectors': tracker.sectors.remember(),
+        'turns': tracker.turns.remember() if tracker.turns is not None else {},
+        **{name: getattr(tracker, name) for name in PLAIN},
     }
 
 
 def recall(tracker: RadarTracker, memory: dict[str, Any]) -> None:
-    """Go on from what was remembered; ValueError where it is not of a radar like this."""
-    dimensions = memory['dimensions']
-    if dimensions not in (2, 3):
-        raise ValueError(f'a radar of {dimensions} dimensions')
-    radar = Radar(tracker.config.sensor, dimensions, bool(memory['is_polar']))
-    core = Tracker(build_setup(tracker.config, radar))
-    vars(tracker).update(_radar=radar, _tracker=core)
-    check_form(memory, remember(tracker))
-    core.state = memory['state']
-    vars(vars(tracker)['_antenna']).update(memory['antenna'])
-    vars(tracker.sectors).update(memory['sectors'])
-    if memory['turns']:
-        vars(vars(tracker)['_turns']).update(memory['turns'])
-    vars(tracker).update({name: memory[name] for name in KEPT})
+    """
+    Go on from what was remembered.
+
+    Raises
+    ------
+    ValueError
+        Where it is not of a radar like this; then the tracker is as it was.
+
+    """
+    if memory['dimensions'] not in (2, 3):
+        raise ValueError(f'a radar of {memory["dimensions"]} dimensions')
+    fresh = RadarTracker(tracker.config)
+    fresh.radar = Radar(fresh.config.sensor, memory['dimensions'], bool(memory['is_polar']))
+    fresh.core = Tracker(build_setup(fresh.config, fresh.radar))
+    check_form(memory, remember(fresh))
+    tracker.radar, tracker.core = fresh.radar, fresh.core
+    tracker.antenna.recall(memory['antenna'])
+    tracker.sectors.recall(memory['sectors'])
+    if tracker.turns is not None:
+        tracker.turns.recall(memory['turns'])
+    for name in PLAIN:
+        setattr(tracker, name, memory[name])

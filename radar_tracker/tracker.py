@@ -38,7 +38,7 @@ class RadarTracker:
 
     def _forget(self, next_id: int) -> None:
         scan = self.config.scan
-        self._antenna = Antenna(
+        self.antenna = Antenna(
             scan.period,
             full_turns=scan.assembly != 'sector',
             # A collected turn has the stamp of its first sector, and begins about there.
@@ -47,27 +47,27 @@ class RadarTracker:
             collects=scan.assembly == 'rotation',
         )
         self.sectors = SectorClock(scan)
-        self._turns = Turns(scan.period) if scan.assembly == 'rotation' else None
-        self._radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
-        self._is_known = False  # which radar it is
-        self._farthest = 0.0  # plot so far [m]
-        self._last_coverage = Coverage(0.0, 0.0)
-        self._tracker = Tracker(build_setup(self.config, self._radar))
-        self._tracker.reset(next_id)
+        self.turns = Turns(scan.period) if scan.assembly == 'rotation' else None
+        self.radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
+        self.is_known = False  # which radar it is
+        self.farthest = 0.0  # plot so far [m]
+        self.coverage = Coverage(0.0, 0.0)  # of the last message, in the tracking frame
+        self.core = Tracker(build_setup(self.config, self.radar))
+        self.core.reset(next_id)
 
     @property
     def state(self) -> State:
         """All that the tracker remembers, with the report of the last step."""
-        return self._tracker.state
+        return self.core.state
 
     @state.setter
     def state(self, state: State) -> None:
-        self._tracker.state = state
+        self.core.state = state
 
     @property
     def turn(self) -> float:
         """Time of one turn of the antenna [s], 0 if it is not known to turn."""
-        rate = abs(self._antenna.rotation_rate)
+        rate = abs(self.antenna.rotation_rate)
         return TWO_PI / rate if rate else 0.0
 
     def save(self) -> dict[str, Any]:
@@ -84,26 +84,26 @@ class RadarTracker:
     @property
     def tracks(self) -> Tracks:
         """All tracks, each at the time of its last look."""
-        return self._tracker.tracks
+        return self.core.tracks
 
     @property
     def dimensions(self) -> int:
         """2 or 3, as configured or as the first plots told."""
-        return self._radar.dimensions
+        return self.radar.dimensions
 
     @property
     def is_ready(self) -> bool:
         """Whether tracks may be ordered: their dimensions are known."""
-        return self._is_known or self.config.sensor.dimensions > 0
+        return self.is_known or self.config.sensor.dimensions > 0
 
     @property
     def sensor_position(self) -> tuple[float, float, float]:
         """Where the radar was at its last look, tracking frame [m]."""
-        return self._last_coverage.sensor_position
+        return self.coverage.sensor_position
 
     def plot_noise(self, position: Floats) -> Floats:
         """Return the covariance (K, d, d) [m^2] of a plot at each of these places (K, 3) [m]."""
-        return self._radar.noise(position[:, : self.dimensions], self._last_coverage)
+        return self.radar.noise(position[:, : self.dimensions], self.coverage)
 
     def reset(self) -> None:
         """Forget all but the next id, as after a restart."""
@@ -112,18 +112,18 @@ class RadarTracker:
     def reconfigure(self, config: RadarTrackerConfig) -> None:
         """Go on with other live parameters from the next message; tracks are kept."""
         self.config = config
-        self._radar = replace(self._radar, config=config.sensor)
-        self._tracker.setup = build_setup(config, self._radar)
+        self.radar = replace(self.radar, config=config.sensor)
+        self.core.setup = build_setup(config, self.radar)
 
     def start_track(self, position: Floats, time: float) -> int:
         """Start a confirmed track at a position (2,) or (3,) [m] at a time [s]; return its id."""
         full = np.zeros(self.dimensions)
         full[: min(len(position), self.dimensions)] = position[: self.dimensions]
-        return self._tracker.acquire(full, time, self._last_coverage)
+        return self.core.acquire(full, time, self.coverage)
 
     def drop_track(self, track_id: int) -> bool:
         """Delete one track; return whether there was one with this id."""
-        return self._tracker.cancel(track_id)
+        return self.core.cancel(track_id)
 
     def track(
         self, plots: Plots, platform: Platform | None = None, beam: Beam | None = None
@@ -152,30 +152,30 @@ class RadarTracker:
 
         """
         self._recognise(plots)
-        rate = self._antenna.rotation_rate
-        collected = self._turns.add(plots, rate) if self._turns is not None else plots
+        rate = self.antenna.rotation_rate
+        collected = self.turns.add(plots, rate) if self.turns is not None else plots
         if collected is None:
             return self.tracks
         pose = pose_at(platform, collected.time)
         self._allow_for(PlatformDoubt.of(pose) if platform is not None else None)
-        sweep = self._antenna.follow(collected, azimuth_of(collected, self._radar.is_polar), beam)
+        sweep = self.antenna.follow(collected, azimuth_of(collected, self.radar.is_polar), beam)
         ends = pose_at(platform, np.array([sweep.start_time, sweep.end_time]))
-        coverage = self._last_coverage = coverage_of(sweep, ends, self.config.sensor)
-        volume = self._radar.plot_space_volume(self._farthest or self.config.sensor.range_max)
-        return self._tracker.step(self._radar.measure(collected, pose, coverage, volume))
+        coverage = self.coverage = coverage_of(sweep, ends, self.config.sensor)
+        volume = self.radar.plot_space_volume(self.farthest or self.config.sensor.range_max)
+        return self.core.step(self.radar.measure(collected, pose, coverage, volume))
 
     def _recognise(self, plots: Plots) -> None:
         """Learn from the first plots what radar this is, and how far it sees."""
         if len(plots) == 0:
             return
-        if not self._is_known:
-            self._radar = Radar.for_plots(self.config.sensor, plots)
-            tracker = Tracker(build_setup(self.config, self._radar))
+        if not self.is_known:
+            self.radar = Radar.for_plots(self.config.sensor, plots)
+            tracker = Tracker(build_setup(self.config, self.radar))
             tracker.reset(self.state.next_id)
             if self.is_ready and len(self.tracks):  # ordered ones, of these dimensions
                 tracker.state = self.state
-            self._tracker, self._is_known = tracker, True
-        self._see(farthest(plots, self._radar.is_polar, self.dimensions))
+            self.core, self.is_known = tracker, True
+        self._see(farthest(plots, self.radar.is_polar, self.dimensions))
 
     def _see(self, distance: float) -> None:
         """
@@ -183,14 +183,14 @@ class RadarTracker:
 
         It saw so far all the time: the false plots that were counted are of the larger space.
         """
-        before = self._radar.plot_space_volume(self._farthest)
-        if distance > self._farthest > 0.0:
-            share = before / self._radar.plot_space_volume(distance)
+        before = self.radar.plot_space_volume(self.farthest)
+        if distance > self.farthest > 0.0:
+            share = before / self.radar.plot_space_volume(distance)
             self.state = replace(self.state, clutter_density=self.state.clutter_density * share)
-        self._farthest = max(self._farthest, distance)
+        self.farthest = max(self.farthest, distance)
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:
         """Open the gates for what own ship does not know of itself."""
-        if doubt is not self._radar.doubt:
-            self._radar = replace(self._radar, doubt=doubt)
-            self._tracker.setup = self._tracker.setup.with_sensor(self._radar)
+        if doubt is not self.radar.doubt:
+            self.radar = replace(self.radar, doubt=doubt)
+            self.core.setup = self.core.setup.with_sensor(self.radar)

@@ -10,10 +10,11 @@ import numpy as np
 
 from radar_tracker.rotation import TWO_PI
 from tracking_core.batches import Plots
+from tracking_core.remembering import Remembering
 from tracking_core.rows import concatenate
 
 
-class Turns:
+class Turns(Remembering):
     """
     Collects sectors until they are a turn.
 

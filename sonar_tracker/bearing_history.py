@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -39,6 +40,16 @@ class BearingHistory:
         self._points = np.zeros((5, 0, points))
         self._count: Ints = np.zeros(0, np.int64)
         self._window = window
+
+    def remember(self) -> dict[str, Any]:
+        """Return copies of all marks, tracks first."""
+        points = np.swapaxes(self._points, 0, 1).copy()  # (T, 5, K)
+        return {'id': self.id.copy(), 'count': self._count.copy(), 'points': points}
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Have the marks that were remembered."""
+        self.id, self._count = memory['id'].copy(), memory['count'].copy()
+        self._points = np.swapaxes(memory['points'], 0, 1).copy()
 
     def follow(self, ids: Ints) -> None:
         """Keep the rows of these tracks only, in this order; new ones have no marks."""

@@ -4,10 +4,8 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import asdict
 from typing import Any
-
-import numpy as np
 
 from msg_adapters.snapshots.form import check_form
 from sonar_tracker.build import build_setup
@@ -19,30 +17,30 @@ from tracking_core.tracker import Tracker
 
 def remember(tracker: SonarTracker) -> dict[str, Any]:
     """Return batches, numbers and dictionaries of them; nothing in them will change."""
-    mine = vars(tracker)
-    ranging = vars(mine['_ranging'])
-    history, courses = vars(ranging['_history']), ranging['_courses']
     return {
-        'usual_sd': mine['_sonar'].usual_sd,
-        'heard': mine['_heard'],
+        'usual_sd': tracker.sonar.usual_sd,
+        'heard': tracker.heard,
         'coverage': tracker.coverage,
         'state': tracker.state,
-        'marks': {name: history[name].copy() for name in ('id', '_count')},
-        'points': np.swapaxes(history['_points'], 0, 1).copy(),  # (T, 5, K)
-        'courses': {f.name: getattr(courses, f.name).copy() for f in fields(courses)},
+        'marks': tracker.ranging.history.remember(),
+        'courses': asdict(tracker.ranging.courses),  # copies
     }
 
 
 def recall(tracker: SonarTracker, memory: dict[str, Any]) -> None:
-    """Go on from what was remembered; ValueError where it is not of a sonar like this."""
+    """
+    Go on from what was remembered.
+
+    Raises
+    ------
+    ValueError
+        Where it is not of a sonar like this; then the tracker is as it was.
+
+    """
     check_form(memory, remember(tracker))
-    sonar = Sonar(tracker.config.sensor, memory['usual_sd'])
-    core = Tracker(build_setup(tracker.config, sonar))
-    core.state = memory['state']
-    ranging = vars(vars(tracker)['_ranging'])
-    points = np.swapaxes(memory['points'], 0, 1).copy()
-    vars(ranging['_history']).update(memory['marks'], _points=points)
-    ranging['_courses'] = Courses(**memory['courses'])
-    vars(tracker).update(
-        _sonar=sonar, _tracker=core, _coverage=memory['coverage'], _heard=memory['heard']
-    )
+    tracker.sonar = Sonar(tracker.config.sensor, memory['usual_sd'])
+    tracker.core = Tracker(build_setup(tracker.config, tracker.sonar))
+    tracker.state, tracker.coverage = memory['state'], memory['coverage']
+    tracker.heard = memory['heard']
+    tracker.ranging.history.recall(memory['marks'])
+    tracker.ranging.courses = Courses(**memory['courses'])

@@ -72,8 +72,8 @@ class Ranging:
 
     def reset(self) -> None:
         """Forget all."""
-        self._history = BearingHistory(self.config.points, self.config.window)
-        self._courses = Courses.unknown(0)
+        self.history = BearingHistory(self.config.points, self.config.window)
+        self.courses = Courses.unknown(0)
 
     def add(self, tracks: Tracks, coverage: Coverage) -> None:
         """
@@ -108,23 +108,23 @@ class Ranging:
 
         """
         self._follow(ids)
-        rows = np.flatnonzero((weight > 0.0) & (time > self._history.newest()))
-        self._history.add(rows, time[rows], bearing[rows], weight[rows], own[rows])
+        rows = np.flatnonzero((weight > 0.0) & (time > self.history.newest()))
+        self.history.add(rows, time[rows], bearing[rows], weight[rows], own[rows])
 
     def fit_in_turn(self) -> None:
         """Fit those tracks that have waited longest."""
-        waiting = np.flatnonzero(self._history.newest() > self._courses.time)
-        order = np.argsort(self._courses.time[waiting], kind='stable')
+        waiting = np.flatnonzero(self.history.newest() > self.courses.time)
+        order = np.argsort(self.courses.time[waiting], kind='stable')
         self.fit_rows(waiting[order[: self.config.tracks_per_cycle]])
 
     def fit_rows(self, rows: Ints) -> None:
         """Fit the tracks of these rows; those of no straight course start anew."""
         if len(rows) == 0:
             return
-        found = self._courses
-        found.time[rows] = self._history.newest()[rows]
+        found = self.courses
+        found.time[rows] = self.history.newest()[rows]
         found.state[rows] = found.covariance[rows] = np.nan
-        points = self._history.read(rows)
+        points = self.history.read(rows)
         enough = points.count >= self.config.least_points
         rows, points = rows[enough], take(points, enough)
         if len(rows) == 0:
@@ -136,7 +136,7 @@ class Ranging:
             return
         best = fit(legs, self.config.range_min, self.config.range_max)
         verdict = judge(best, legs, self.config)
-        self._history.forget_older_half(rows[verdict.bent])
+        self.history.forget_older_half(rows[verdict.bent])
         seen = verdict.observable
         found.state[rows[seen]] = verdict.state[seen]
         found.covariance[rows[seen]] = verdict.covariance[seen]
@@ -147,7 +147,7 @@ class Ranging:
 
     def at(self, ids: Ints, time: Floats, own: Floats) -> RangeEstimates:
         """Return what is known of these tracks at these times (T,) [s], sensor at (T, 2) [m]."""
-        found = _of(self._courses, self._history.id, ids)
+        found = _of(self.courses, self.history.id, ids)
         dt = np.where(np.isfinite(found.time), time - found.time, 0.0)
         F = np.tile(np.eye(_UNKNOWNS), (len(ids), 1, 1))
         F[:, 0, 2] = F[:, 1, 3] = dt
@@ -169,8 +169,8 @@ class Ranging:
         )  # fmt: skip
 
     def _follow(self, ids: Ints) -> None:
-        self._courses = _of(self._courses, self._history.id, ids)
-        self._history.follow(ids)
+        self.courses = _of(self.courses, self.history.id, ids)
+        self.history.follow(ids)
 
 
 def _of(found: Courses, old: Ints, ids: Ints) -> Courses:

@@ -46,21 +46,21 @@ class SonarTracker:
         self._forget(next_id=1)
 
     def _forget(self, next_id: int) -> None:
-        self._sonar = Sonar(self.config.sensor)
-        self._tracker = Tracker(build_setup(self.config, self._sonar))
-        self._tracker.reset(next_id)
-        self._coverage = Coverage(0.0, 0.0)
-        self._ranging = Ranging(self.config.ranging)
-        self._heard = -np.inf  # end of the newest cycle that told of ranges [s]
+        self.sonar = Sonar(self.config.sensor)
+        self.core = Tracker(build_setup(self.config, self.sonar))
+        self.core.reset(next_id)
+        self.coverage = Coverage(0.0, 0.0)  # of the last cycle, in the tracking frame
+        self.ranging = Ranging(self.config.ranging)
+        self.heard = -np.inf  # end of the newest cycle that told of ranges [s]
 
     @property
     def state(self) -> State:
         """All that the tracker remembers, with the report of the last step."""
-        return self._tracker.state
+        return self.core.state
 
     @state.setter
     def state(self, state: State) -> None:
-        self._tracker.state = state
+        self.core.state = state
 
     @property
     def turn(self) -> float:
@@ -69,7 +69,7 @@ class SonarTracker:
 
     def save(self) -> tuple[Any, ...]:
         """Return what `restore` takes to go back to this moment: references, no copies of data."""
-        return self.config, self._sonar, copy(self._tracker), self._coverage
+        return self.config, self.sonar, copy(self.core), self.coverage
 
     def restore(self, memory: tuple[Any, ...]) -> None:
         """
@@ -77,20 +77,15 @@ class SonarTracker:
 
         What was learnt of ranges stays too: marks that come late do not count for it.
         """
-        config, self._sonar, tracker, self._coverage = memory
-        self._tracker = copy(tracker)
+        config, self.sonar, tracker, self.coverage = memory
+        self.core = copy(tracker)
         if self.config != config:
             self.reconfigure(self.config)
 
     @property
     def tracks(self) -> Tracks:
         """All tracks, each at the time of its last look."""
-        return self._tracker.tracks
-
-    @property
-    def coverage(self) -> Coverage:
-        """What the last cycle listened to, in the tracking frame."""
-        return self._coverage
+        return self.core.tracks
 
     @property
     def dimensions(self) -> int:
@@ -105,7 +100,7 @@ class SonarTracker:
     @property
     def sensor_position(self) -> tuple[float, float, float]:
         """Where the sonar was at its last cycle, tracking frame [m]."""
-        return self._coverage.sensor_position
+        return self.coverage.sensor_position
 
     def reset(self) -> None:
         """Forget all but the next id, as after a restart."""
@@ -114,8 +109,8 @@ class SonarTracker:
     def reconfigure(self, config: SonarTrackerConfig) -> None:
         """Go on with other live parameters from the next message; tracks are kept."""
         self.config = config
-        self._sonar = Sonar(config.sensor, self._sonar.usual_sd)
-        self._tracker.setup = build_setup(config, self._sonar)
+        self.sonar = Sonar(config.sensor, self.sonar.usual_sd)
+        self.core.setup = build_setup(config, self.sonar)
 
     def start_track(self, position: Floats, time: float) -> int:
         """
@@ -125,13 +120,13 @@ class SonarTracker:
         """
         bearing = np.asarray(position[:1], np.float64)
         if len(position) > 1:
-            x, y = np.asarray(position[:2]) - self._coverage.sensor_at(np.array([time]))[0, :2]
+            x, y = np.asarray(position[:2]) - self.coverage.sensor_at(np.array([time]))[0, :2]
             bearing = np.array([np.arctan2(y, x)])
-        return self._tracker.acquire(bearing, time, self._coverage)
+        return self.core.acquire(bearing, time, self.coverage)
 
     def drop_track(self, track_id: int) -> bool:
         """Delete one track; return whether there was one with this id."""
-        return self._tracker.cancel(track_id)
+        return self.core.cancel(track_id)
 
     def track(self, bearings: Bearings, platform: Platform | None = None) -> Tracks:
         """
@@ -158,25 +153,25 @@ class SonarTracker:
         times = bearings.time if len(bearings) else np.array([bearings.stamp])
         start, end = float(times.min()), float(times.max())
         pose = pose_at(platform, np.append(bearings.time, 0.5 * (start + end)))
-        self._coverage = self._listen(pose, start, end)
+        self.coverage = self._listen(pose, start, end)
         at_marks = take(pose, slice(0, -1))
         self._expect(bearings, at_marks)
-        tracks = self._tracker.step(self._sonar.measure(bearings, at_marks, self._coverage))
-        if self.config.ranging.enabled and end > self._heard:
-            self._heard = end
-            self._ranging.add(tracks, self._coverage)
+        tracks = self.core.step(self.sonar.measure(bearings, at_marks, self.coverage))
+        if self.config.ranging.enabled and end > self.heard:
+            self.heard = end
+            self.ranging.add(tracks, self.coverage)
         return tracks
 
     def ranges(self) -> RangeEstimates:
         """Return what is known of range, course and speed of every track, row by row."""
-        return self._ranging.estimates(self.tracks, self._coverage)
+        return self.ranging.estimates(self.tracks, self.coverage)
 
     def _expect(self, bearings: Bearings, pose: PlatformPose) -> None:
         """Open the gates for the least sure of these marks, with the heading at its time."""
         if len(bearings):
-            sd = np.hypot(self._sonar.mark_sd(bearings), np.sqrt(pose.yaw_variance))
-            self._sonar = Sonar(self.config.sensor, float(sd.max()))
-            self._tracker.setup = self._tracker.setup.with_sensor(self._sonar)
+            sd = np.hypot(self.sonar.mark_sd(bearings), np.sqrt(pose.yaw_variance))
+            self.sonar = Sonar(self.config.sensor, float(sd.max()))
+            self.core.setup = self.core.setup.with_sensor(self.sonar)
 
     def _listen(self, pose: PlatformPose, start: float, end: float) -> Coverage:
         """Return what this cycle listens to, in the tracking frame; the last pose counts."""

@@ -55,8 +55,9 @@ def _total(scene: Scene, holds: list[Hold]) -> str:
     share = np.array([hold.share for hold in holds])
     switches, returns = (sum(getattr(h, name) for h in holds) for name in ('switches', 'returns'))
     return (
-        f'{len(holds)} aircraft were held {duration @ share / duration.sum():.1%} of the time: '
-        f'{duration @ share / MINUTE:.0f} of {duration.sum() / MINUTE:.0f} minutes.\n'
+        f'{len(holds)} aircraft were held {duration @ share / duration.sum():.1%} of the time '
+        f'after three looks: {duration @ share / MINUTE:.0f} of {duration.sum() / MINUTE:.0f} '
+        'minutes.\n'
         f'{len(np.unique(scene.published["id"]))} confirmed tracks, '
         f'{count_false(scene, holds)} of them false; {switches} id switches in sight, '
         f"{returns} new ids after being out of the radar's sight."

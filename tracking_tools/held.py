@@ -25,7 +25,7 @@ class Hold:
 
     contact: int
     duration: float  # that it was in sight [s]
-    share: float  # of its scans with a confirmed track on it
+    share: float  # of its scans after `START` with a confirmed track on it; evaluate counts all
     tracks: Ints  # (K,) ids in order of appearance
     switches: int  # changes of the track while the contact was in sight
     returns: int  # changes of the track while it was out of sight

@@ -126,7 +126,7 @@ def test_parameters_reach_the_estimators() -> None:
 
     def made(name):
         config = with_values(RadarTrackerConfig(), {'estimator': name, **values})
-        return RadarTracker(config)._tracker.setup.planes[0].estimator
+        return RadarTracker(config).core.setup.planes[0].estimator
 
     gains = (0.2, 0.5, 0.8)
     assert made('imm_alpha_beta') == ImmAlphaBeta(gains, 2, 'recursion', 0.8)

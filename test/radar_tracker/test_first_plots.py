@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.memory import recall, remember
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Plots
 from tracking_core.config import with_values
@@ -70,3 +71,16 @@ def test_tracks_are_not_ordered_before_it_is_known_what_they_are():
     assert not tracker.is_ready
     tracker.track(scan(0, [1e4], [0.0]))
     assert tracker.is_ready
+
+
+def test_memory_of_another_radar_is_refused_and_changes_nothing():
+    """A part is missing: the tracker is as it was, to the object."""
+    solid = tracker_of(sensor__dimensions=3)
+    memory = remember(solid)
+    del memory['antenna']
+    tracker = tracker_of()
+    tracker.track(scan(0, [1e4, 2e4], [0.0, 1.0]))
+    before = dict(vars(tracker))
+    with pytest.raises(ValueError, match='antenna'):
+        recall(tracker, memory)
+    assert all(value is before[name] for name, value in vars(tracker).items())

@@ -165,9 +165,9 @@ def test_tracks_are_fitted_in_turn() -> None:
     for k in range(5):
         own = np.zeros((5, 2))
         ranging.hear(ids, np.full(5, float(k)), np.zeros(5), np.ones(5), own)
-        before = ranging._courses.time.copy()
+        before = ranging.courses.time.copy()
         ranging.fit_in_turn()
-        fitted += [set(np.flatnonzero(ranging._courses.time != before).tolist())]
+        fitted += [set(np.flatnonzero(ranging.courses.time != before).tolist())]
     assert fitted == [{0, 1}, {2, 3}, {0, 4}, {1, 2}, {0, 3}]
 
 

@@ -207,7 +207,7 @@ def test_reconfigure_keeps_the_tracks() -> None:
     before = tracker.tracks.id.tolist()
     tracker.reconfigure(with_values(tracker.config, {'sensor.detection_probability': 0.5}))
     assert tracker.tracks.id.tolist() == before
-    assert tracker._tracker.setup.sensor.detection_probability == 0.5
+    assert tracker.core.setup.sensor.detection_probability == 0.5
 
 
 @pytest.mark.parametrize('lifecycle', ['existence', 'm_of_n', 'error_ratio'])

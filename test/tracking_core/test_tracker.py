@@ -267,7 +267,7 @@ def test_ids_are_never_used_twice() -> None:
 def test_broken_covariances_are_dropped_and_counted() -> None:
     """A track whose covariance is no longer positive definite is deleted; others live."""
     tracker = followed(scene(4, 10))
-    inner = tracker._tracker
+    inner = tracker.core
     plane = inner.state.tracks.planes[0]
     covariance = plane.covariance.copy()
     covariance[1, :, 0, 1] = covariance[1, :, 1, 0] = 3.0 * np.sqrt(
