@@ -8,7 +8,7 @@ from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.marked import Marked
 from sonar_tracker.range_prior import RANGE_PRIORS
 from sonar_tracker.sensor import Sonar
-from tracking_core.association import ASSOCIATORS, DECIDING
+from tracking_core.assembly import assemble
 from tracking_core.composition import Plane, Setup
 from tracking_core.estimators import (
     DecoupledKalman,
@@ -17,47 +17,19 @@ from tracking_core.estimators import (
     MarkovJump,
     ModifiedPolar,
 )
-from tracking_core.lifecycle import Lifecycle, LIFECYCLES
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.mode_chain import ModeChain
 from tracking_core.motion import RandomWalk
-from tracking_core.unresolved.resolution import Resolution
-
-_SECONDS_PER_HOUR = 3600.0
-_START_SHARE = 0.5  # a new track may be this much less likely than one that is dropped
 
 
 def build_setup(config: SonarTrackerConfig, sonar: Sonar) -> Setup:
     """Return sensor, filters and rules for these parameters."""
     start = config.initiation
-    return Setup(
-        sensor=sonar,
-        planes=(Plane(_with_marks(build_estimator(config), config), (0,)),),
-        associate=ASSOCIATORS[config.association],
-        is_soft=config.association not in DECIDING,
-        lifecycle=_lifecycle(config),
-        initiation=InitiationConfig(
-            method=start.method, speed_max=start.rate_max, speed_sd=start.rate_sd,
-            memory=start.memory,
-        ),
-        gate_probability=config.gate.probability,
-        clutter_density=config.clutter_density,
-        new_contacts=config.existence.new_contacts / _SECONDS_PER_HOUR,
-        least_existence=_START_SHARE * config.existence.drop,
-        merge=config.merge,
-        max_tracks=config.max_tracks,
-        longest_pause=config.longest_pause,
-        resolution=_resolution(config, sonar),
-    )  # fmt: skip
-
-
-def _resolution(config: SonarTrackerConfig, sonar: Sonar) -> Resolution | None:
-    if config.sensor.bearing_resolution == 0.0:
-        return None
-    rule = config.unresolved
-    return Resolution(
-        sonar, rule.softness, rule.spread, rule.interference, rule.capture, rule.least_chance
+    initiation = InitiationConfig(
+        method=start.method, speed_max=start.rate_max, speed_sd=start.rate_sd, memory=start.memory
     )
+    planes = (Plane(_with_marks(build_estimator(config), config), (0,)),)
+    return assemble(config, sonar, planes, initiation, config.sensor.bearing_resolution)
 
 
 def build_estimator(config: SonarTrackerConfig) -> Estimator:
@@ -86,13 +58,3 @@ def build_estimator(config: SonarTrackerConfig) -> Estimator:
 
 def _with_marks(estimator: Estimator, config: SonarTrackerConfig) -> Estimator:
     return Marked(estimator) if config.ranging.enabled else estimator
-
-
-def _lifecycle(config: SonarTrackerConfig) -> Lifecycle:
-    rules = {
-        'existence': config.existence,
-        'm_of_n': config.m_of_n,
-        'error_ratio': config.error_ratio,
-    }
-    lifecycle: Lifecycle = LIFECYCLES[config.lifecycle](rules[config.lifecycle])
-    return lifecycle

@@ -96,7 +96,7 @@ class SensorConfig:
 
 
 @dataclass(frozen=True)
-class InitiationConfig:
+class BearingInitiationConfig:
     """How tracks start from marks that no track claimed."""
 
     method: str = parameter(
@@ -130,7 +130,7 @@ class SonarTrackerConfig:
     existence: ExistenceConfig = field(default_factory=lambda: ExistenceConfig(drop=_DROP))
     m_of_n: MOfNConfig = field(default_factory=lambda: MOfNConfig(hits=4, looks=6))
     error_ratio: ErrorRatioConfig = field(default_factory=ErrorRatioConfig)
-    initiation: InitiationConfig = field(default_factory=InitiationConfig)
+    initiation: BearingInitiationConfig = field(default_factory=BearingInitiationConfig)
     unresolved: UnresolvedConfig = field(default_factory=UnresolvedConfig)
     merge: MergeConfig = field(default_factory=lambda: MergeConfig(distance=2.0))
     ranging: RangingConfig = field(default_factory=RangingConfig)

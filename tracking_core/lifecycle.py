@@ -151,7 +151,8 @@ def existence_after(
 
     References
     ----------
-    [MUSICKI04]
+    [MUSICKI04]. By Bayes: `miss` is the chance that no plot is the track's. Before the scan
+    1 - P_D P_G prior was, and (1 - P_D P_G) prior of it that the contact exists and was missed.
 
     """
     unseen = miss * (1.0 - detection) * prior / (1.0 - detection * prior)
