@@ -34,9 +34,11 @@ def _contact(
     path, there = recorded.truth.target(contact), targets.of_target(contact)
     ids, changes = holders(mine, there), find_changes(mine, there)
     begin, end, _ = stretches(path)
+    seen = (end >= recorded.starts[0]) & (begin < recorded.starts[-1])
+    begin = np.maximum(begin[seen], recorded.starts[0])
+    end = np.minimum(end[seen], recorded.starts[-1])
     onsets = find_onsets(recorded.rows, recorded.manoeuvre_probability, mine, path)
     changed = np.diff(mine.track, prepend=NOBODY) != 0
-    came = max(float(begin[0]), float(recorded.starts[0]))
     return ContactJudgement(
         contact=contact,
         duration=float((end - begin).sum()),
@@ -46,7 +48,7 @@ def _contact(
         new_ids_after_absence=changes.returns,
         tracks=tuple(mine.track[changed].tolist()),
         relative_tracking_time=relative_tracking_time(ids),
-        time_to_confirm=max(_first(recorded, mine) - came, 0.0) if len(mine) else NAN,
+        time_to_confirm=max(_first(recorded, mine) - float(begin[0]), 0.0) if len(mine) else NAN,
         onset_delays=tuple(onsets.delay.tolist()),
         accuracy=track_error(recorded.rows, mine, recorded.has_velocity),
     )

@@ -136,6 +136,7 @@ class Judgement:
     contacts: int
     tracks: int  # confirmed
     radius: float  # a track farther off is not the contact's
+    dimensions: int  # that are compared; 2 also where the truth of 3-D tracks has no heights
     held: Held
     timing: Timing
     accuracy: Accuracy

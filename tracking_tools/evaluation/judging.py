@@ -74,7 +74,8 @@ def judge(recorded: Recorded, yardstick: Yardstick) -> Judgement:
     rows, truth = recorded.rows, recorded.truth
     radius, cutoff = yardstick.of_sensor(recorded.sensor)
     targets = Targets.of_truth(truth, recorded.starts)
-    wide = candidates(rows, truth, max(radius, cutoff), 0.0)
+    slack = float(np.median(np.diff(recorded.starts)))  # rows just before or after all samples
+    wide = candidates(rows, truth, max(radius, cutoff), slack)
     close = take(wide, wide.distance <= radius)
     near = take(close, targets.wanted(close.target, close.scan))
     matches = choose_pairs(near, radius) if len(near) else near
@@ -89,6 +90,7 @@ def judge(recorded: Recorded, yardstick: Yardstick) -> Judgement:
         contacts=len(contacts),
         tracks=len(np.unique(rows.id)),
         radius=radius,
+        dimensions=int(rows.position.shape[1]),
         held=_held(recorded, matches, close, targets, contacts),
         timing=_timing(recorded, matches, contacts),
         accuracy=track_error(rows, matches, recorded.has_velocity),

@@ -17,7 +17,13 @@ from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Floats
 from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.evaluation.recorded import Recorded
-from tracking_tools.evaluation.rows import bearing_rows, NEEDED, no_rows, position_rows
+from tracking_tools.evaluation.rows import (
+    bearing_rows,
+    has_heights,
+    NEEDED,
+    no_rows,
+    position_rows,
+)
 from tracking_tools.evaluation.truths import bearings_of, positions_of, ranges_of
 from tracking_tools.own_ship import read_platform
 from tracking_tools.replay_topics import inventory, Topics
@@ -76,12 +82,15 @@ def read_tracks(
         told, ranges = bearings_of(real, platform, turning), ranges_of(real, platform)
     else:
         told = positions_of(real, turning)
-    rows = bearing_rows(table, stamps) if kind == 'sonar' else position_rows(table, stamps)
-    d = rows.position.shape[1]
+    size = 1 if kind == 'sonar' else 3 if has_heights(table) else 2
+    is_level = not np.isfinite(real.get('z', np.nan)).all()
+    d = min(size, 2) if is_level else size
+    rows = bearing_rows(table, stamps) if kind == 'sonar' else position_rows(table, stamps, d)
     told = replace(told, position=told.position[:, :d], velocity=told.velocity[:, :d])
     period = float(np.median(np.diff(stamps))) if len(stamps) > 1 else 1.0
     starts = np.append(stamps, stamps[-1] + period)
-    return Recorded(kind, rows, table, told, starts, 'vx' in real, ranges)
+    has_velocity = bool(np.isfinite(real.get('vx', np.nan)).any())
+    return Recorded(kind, rows, table, told, starts, has_velocity, size, ranges)
 
 
 def find_sensor(bag: Path | str, rules: Sequence[str], sensor: str | None) -> tuple[str, Topics]:
@@ -107,7 +116,11 @@ def find_sensor(bag: Path | str, rules: Sequence[str], sensor: str | None) -> tu
 
 
 def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
-    """Return the true rows on a topic; BadBag without them or without these columns."""
+    """
+    Return the true rows on a topic, those that lack one of these columns left out.
+
+    BadBag where there are none.
+    """
     _check_topic(bag, topic, 'truth')
     table = read_rows(bag, topic, table_rows)
     if not table:
@@ -116,7 +129,10 @@ def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
     if missing:
         raise BadBag(f'{bag}: {topic} has no column {", ".join(missing)}; it has '
                      f'{", ".join(table)}')  # fmt: skip
-    return table
+    told = np.all([np.isfinite(table[name]) for name in (*needed, 'time')], axis=0)
+    if not told.any():
+        raise BadBag(f'{bag}: no row of {topic} has numbers in all of {", ".join(needed)}')
+    return choose(table, told)
 
 
 def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tuple[Columns, Floats]:

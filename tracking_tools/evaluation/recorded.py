@@ -23,6 +23,7 @@ class Recorded:
     truth: Truth
     starts: Floats  # (K + 1,) when each scan begins, and when the last one ends [s]
     has_velocity: bool  # whether the truth tells velocities
+    plot_size: int  # coordinates of a plot, which its NIS is of
     ranges: Columns | None = None  # sonar: id, time, range [m] of the truth
 
     @property
@@ -35,11 +36,6 @@ class Recorded:
         """Of each row (N,); NaN where the table does not tell."""
         told = self.table.get('manoeuvre_probability', np.full(len(self.rows), np.nan))
         return np.asarray(told, np.float64)
-
-    @property
-    def plot_size(self) -> int:
-        """How many coordinates a plot has, which its NIS is of."""
-        return int(self.rows.position.shape[1])
 
     @property
     def duration(self) -> float:

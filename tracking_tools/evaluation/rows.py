@@ -24,11 +24,15 @@ def no_rows(needed: Sequence[str]) -> Columns:
     return columns | {'covariance': np.zeros((0, 36))}
 
 
-def position_rows(table: Columns, stamps: Floats) -> TrackRows:
-    """Return the rows of a radar's table; `stamps` (K,) are those of the scans [s]."""
+def has_heights(table: Columns) -> bool:
+    """Return whether the tracks of a radar are in three dimensions."""
     full = table['covariance'].reshape(-1, 6, 6)
-    has_heights = len(full) > 0 and np.isfinite(full[:, 2, 2]).all()
-    d = 3 if has_heights else 2
+    return len(full) > 0 and bool(np.isfinite(full[:, 2, 2]).all())
+
+
+def position_rows(table: Columns, stamps: Floats, d: int) -> TrackRows:
+    """Return `d` coordinates of a radar's table; `stamps` (K,) are those of the scans [s]."""
+    full = table['covariance'].reshape(-1, 6, 6)
     state = np.stack([table[n] for n in ('x', 'y', 'z', 'vx', 'vy', 'vz')], axis=1)
     state = state.astype(np.float64)
     at = np.concatenate([np.arange(d), 3 + np.arange(d)])

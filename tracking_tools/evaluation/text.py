@@ -41,7 +41,8 @@ def to_text(judgement: Judgement) -> str:
     lines = [
         f'{judgement.sensor}: {judgement.scans} scans in {judgement.duration / MINUTE:.1f} min, '
         f'{judgement.contacts} contacts, {judgement.tracks} confirmed tracks; '
-        f'matched within {unit.far(judgement.radius)}',
+        f'matched within {unit.far(judgement.radius)}'
+        + (' over the ground' if judgement.dimensions == 2 else ''),
         '',
         *(f'{name:<24}{value:>14}  {remark}'.rstrip() for name, value, remark in rows(judgement)),
         '',

@@ -63,10 +63,11 @@ def _complete(table: Columns) -> Columns:
     _, once = np.unique(np.stack([table['id'], table['time']]), axis=1, return_index=True)
     table = choose(table, once)  # sorted by target, then time
     table = {**table, 'id': table['id'].astype(np.int64)}
-    table.setdefault('z', np.zeros(len(table['id'])))
+    nothing = np.full(len(table['id']), np.nan)
+    table['z'] = np.nan_to_num(table.get('z', nothing))  # if not all are known, none is compared
     for axis in 'xyz':
-        if f'v{axis}' not in table:
-            table[f'v{axis}'] = _slope(table, axis)
+        told = table.get(f'v{axis}', nothing)
+        table[f'v{axis}'] = np.where(np.isfinite(told), told, _slope(table, axis))
     return table
 
 

@@ -79,7 +79,7 @@ def distances_of_scans(
     begin, stop = (np.searchsorted(near.scan, numbers, side=side) for side in ('left', 'right'))
     for k in range(scans):
         present: Ints = targets.id[(targets.first_scan <= k) & (k <= targets.last_scan)]
-        distance = np.full((end[k] - first[k], len(present)), cutoff)
+        distance = np.full((end[k] - first[k], len(present)), float(cutoff))
         pair = slice(begin[k], stop[k])
         column = np.searchsorted(present, near.target[pair])
         there = np.isin(near.target[pair], present)

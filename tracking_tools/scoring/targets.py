@@ -57,8 +57,12 @@ class Targets:
         first = np.searchsorted(starts, begin, side='right') - 1
         last = np.searchsorted(starts, end, side='right') - 1
         seen = (last >= 0) & (first < len(starts) - 1)
-        first, last = np.maximum(first, 0), np.minimum(last, len(starts) - 2)
-        return Targets(ids[seen], first[seen], last[seen])
+        first, last = np.maximum(first, 0)[seen], np.minimum(last, len(starts) - 2)[seen]
+        ids = ids[seen]
+        # An absence that no whole scan falls into is none.
+        away = (np.diff(ids) != 0) | (first[1:] > last[:-1] + 1)
+        begins, ends = np.append(True, away)[: len(ids)], np.append(away, True)[-len(ids) :]
+        return Targets(ids[begins], first[begins], last[ends[: len(ids)]])
 
     @property
     def length(self) -> Ints:

@@ -1,0 +1,132 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Check that perfect tracks are judged perfect, whatever the truth leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.testing import assert_allclose
+import pytest
+
+from msg_adapters.message_types import rosbags_types
+from msg_adapters.table import Columns, from_columns
+from tracking_tools.bags import BadBag, BagWriter, nanoseconds
+from tracking_tools.evaluation import evaluate, Judgement, Yardstick
+from tracking_tools.evaluation.text import to_text
+
+PERIOD, SCANS, EPOCH = 4.0, 50, 1000.0
+WriteBag = Callable[[str, str, list[tuple[float, Columns]]], Path]
+
+
+@pytest.fixture
+def write_bag(tmp_path: Path) -> WriteBag:
+    """Return a function that writes tables with their stamps to a topic."""
+
+    def write_bag(name: str, topic: str, tables: list[tuple[float, Columns]]) -> Path:
+        with BagWriter(tmp_path / name) as bag:
+            for time, columns in tables:
+                msg = from_columns(columns, EPOCH + time, 'map', rosbags_types())
+                bag.write(topic, msg, nanoseconds(EPOCH + time))
+        return tmp_path / name
+
+    return write_bag
+
+
+def state(time: float, height: float = 8000.0) -> Columns:
+    """Return where two contacts are that fly east at 100 m/s."""
+    east, one = 100.0 * time + np.zeros(2), np.ones(2)
+    return {
+        'id': np.array([1, 2], np.uint32), 'x': east, 'y': np.array([0.0, 20e3]),
+        'z': height * one, 'vx': 100.0 * one, 'vy': 0.0 * one, 'vz': 0.0 * one,
+    }  # fmt: skip
+
+
+def tracked(late: float = 0.0) -> list[tuple[float, Columns]]:
+    """Return perfect tracks of both; rows are of a moment later than the stamps."""
+    covariance = np.tile((100.0 * np.eye(6)).reshape(1, 36), (2, 1))
+    return [
+        (
+            PERIOD * k,
+            {
+                **state(PERIOD * k + late), 'time': np.full(2, late, np.float32),
+                'status': np.ones(2, np.uint8), 'covariance': covariance,
+            },
+        )
+        for k in range(SCANS)
+    ]  # fmt: skip
+
+
+def perfect(found: Judgement) -> None:
+    """Check that nothing is missed or false."""
+    assert found.held.coverage == 1.0
+    assert (found.held.breaks, found.held.id_switches, found.held.false_tracks) == (0, 0, 0)
+    assert found.held.relative_tracking_time == 1.0
+    assert found.gospa.rms < 1.0
+    assert found.ospa.mean < 1.0
+
+
+def test_truth_without_heights_is_compared_over_the_ground(write_bag: WriteBag) -> None:
+    """Tracks in 3-D, truth of x and y; the text says so. With heights they are compared."""
+    tracks = write_bag('tracks', '/radar_tracker/tracks', tracked())
+    flat = [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)]
+    for _, columns in flat:
+        del columns['z']
+    found = evaluate(tracks, write_bag('flat', '/truth', flat))
+    perfect(found)
+    assert 'over the ground' in to_text(found)
+    high = [(PERIOD * k, state(PERIOD * k, 5000.0)) for k in range(SCANS)]
+    assert evaluate(tracks, write_bag('high', '/truth', high)).held.coverage == 0.0
+
+
+@pytest.mark.parametrize('name', ['vx', 'z', 'y'])
+def test_what_the_truth_does_not_know_is_left_out(write_bag: WriteBag, name: str) -> None:
+    """NaN in some rows: velocities come from the places, heights go, rows without a place go."""
+    tables = [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)]
+    for k, (_, columns) in enumerate(tables[1:-1]):
+        columns[name][k % 2] = np.nan
+    tracks = write_bag('tracks', '/radar_tracker/tracks', tracked())
+    perfect(evaluate(tracks, write_bag('truth', '/truth', tables)))
+
+
+def test_truth_without_a_single_place_is_refused(write_bag: WriteBag) -> None:
+    """Says which columns a row must have."""
+    tables = [(0.0, {**state(0.0), 'x': np.full(2, np.nan)})]
+    tracks = write_bag('tracks', '/radar_tracker/tracks', tracked())
+    with pytest.raises(BadBag, match='numbers in all of id, x, y'):
+        evaluate(tracks, write_bag('truth', '/truth', tables))
+
+
+def test_short_dropouts_of_a_fast_truth_are_no_absence(write_bag: WriteBag) -> None:
+    """Once a second with gaps of three: no scan without it, and none that counts twice."""
+    seconds = [t for t in range(int(PERIOD) * SCANS) if t % 20 not in (5, 6)]
+    tables = [(float(t), state(float(t))) for t in seconds]
+    tracks = write_bag('tracks', '/radar_tracker/tracks', tracked())
+    perfect(evaluate(tracks, write_bag('truth', '/truth', tables)))
+
+
+def test_row_just_after_the_last_sample_counts(write_bag: WriteBag) -> None:
+    """As a track's time is that of the plot, and a truth's that of its message."""
+    tables = [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)]
+    tracks = write_bag('tracks', '/radar_tracker/tracks', tracked(late=0.003))
+    perfect(evaluate(tracks, write_bag('truth', '/truth', tables)))
+
+
+def test_time_before_the_recording_does_not_count(write_bag: WriteBag) -> None:
+    """There long before, away, and back in scan 10: confirmed at once, there for 40 scans."""
+    early = [(-1000.0 + 4.0 * k, state(-1000.0 + 4.0 * k)) for k in range(30)]
+    back = [(PERIOD * k, state(PERIOD * k)) for k in range(10, SCANS)]
+    tracks = write_bag('tracks', '/radar_tracker/tracks', tracked()[10:])
+    found = evaluate(tracks, write_bag('truth', '/truth', early + back))
+    assert found.timing.time_to_confirm_mean == 0.0
+    assert_allclose([c.duration for c in found.per_contact], PERIOD * (SCANS - 11))
+
+
+def test_radius_may_be_a_whole_number(write_bag: WriteBag) -> None:
+    """Distances keep their fractions."""
+    tables = [(PERIOD * k, state(PERIOD * k, 8000.9)) for k in range(SCANS)]
+    tracks = write_bag('tracks', '/radar_tracker/tracks', tracked())
+    found = evaluate(tracks, write_bag('truth', '/truth', tables), Yardstick(radius=50))
+    assert_allclose([found.ospa.mean, found.accuracy.rmse], 0.9, atol=1e-3)
