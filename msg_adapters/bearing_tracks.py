@@ -19,6 +19,7 @@ from msg_adapters.track_rows import common_columns, with_deleted
 from tracking_core.batches import Bools, Floats, Tracks
 
 _PLACES = np.array([0, 1, 3, 4])  # where (x, y, vx, vy) stand in (x, y, z, vx, vy, vz)
+_HEIGHTS = np.array([2, 5])  # z and vz
 
 
 class BearingStates(Protocol):
@@ -168,7 +169,8 @@ def located_bodies(tracks: Tracks, ranges: Ranges, wanted: Bools) -> Bodies:
     """Return position and velocity of the tracks (T,) that are wanted and observable."""
     rows = np.flatnonzero(ranges.observable & wanted)
     state = np.zeros((len(rows), 6))
-    covariance = np.full((len(rows), 6, 6), np.nan)
+    covariance = np.zeros((len(rows), 6, 6))
+    covariance[:, _HEIGHTS, _HEIGHTS] = np.nan  # not known, and so correlated with nothing
     state[:, _PLACES] = ranges.state[rows]
     covariance[:, _PLACES[:, None], _PLACES] = ranges.covariance[rows]
     return Bodies(tracks.id[rows], tracks.time[rows], state, covariance)

@@ -36,6 +36,10 @@ class Tracker(Protocol):
         """Return the time of one turn of the antenna [s], 0 if it is not known to turn."""
 
     @property
+    def dimensions(self) -> int:
+        """Return how many coordinates a plot has; one: the bearing."""
+
+    @property
     def is_ready(self) -> bool:
         """Return whether tracks may be ordered."""
 

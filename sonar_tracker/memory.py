@@ -19,6 +19,7 @@ def remember(tracker: SonarTracker) -> dict[str, Any]:
     """Return batches, numbers and dictionaries of them; nothing in them will change."""
     return {
         'usual_sd': tracker.sonar.usual_sd,
+        'heading_sd': tracker.sonar.heading_sd,
         'heard': tracker.heard,
         'coverage': tracker.coverage,
         'state': tracker.state,
@@ -38,7 +39,7 @@ def recall(tracker: SonarTracker, memory: dict[str, Any]) -> None:
 
     """
     check_form(memory, remember(tracker))
-    tracker.sonar = Sonar(tracker.config.sensor, memory['usual_sd'])
+    tracker.sonar = Sonar(tracker.config.sensor, memory['usual_sd'], memory['heading_sd'])
     tracker.core = Tracker(build_setup(tracker.config, tracker.sonar))
     tracker.state, tracker.coverage = memory['state'], memory['coverage']
     tracker.heard = memory['heard']

@@ -21,7 +21,8 @@ class Sonar:
     """Measurement model of one sonar; plots are bearings in tracking axes."""
 
     config: SensorConfig
-    usual_sd: float = 0.0  # of the marks, 0: as configured [rad]
+    usual_sd: float = 0.0  # that marks tell, 0: as configured [rad]
+    heading_sd: float = 0.0  # of own ship, at most [rad]
 
     @property
     def dimensions(self) -> int:
@@ -45,10 +46,10 @@ class Sonar:
 
     def noise(self, position: Floats, coverage: Coverage) -> Floats:
         """Return the variance (T, 1, 1) expected at bearings (T, 1) [rad^2]."""
-        if self.usual_sd:  # as the marks tell it
-            return np.full((len(position), 1, 1), self.usual_sd**2)
-        sd = self.config.bearing_sd * self._blur(position - self._axis(coverage))
-        return np.asarray(sd[:, :, None] ** 2)
+        sd = np.full(position.shape, self.usual_sd)
+        if not self.usual_sd:
+            sd = self.config.bearing_sd * self._blur(position - self._axis(coverage))
+        return np.asarray(sd[:, :, None] ** 2 + self.heading_sd**2)
 
     def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
         """Return 1 (T,): plots are bearings already."""
@@ -103,9 +104,11 @@ class Sonar:
         M = len(marks)
         bearing = wrap_angle(marks.bearing + pose.yaw + self.config.mount.yaw)
         variance = self.mark_sd(marks) ** 2 + pose.yaw_variance
+        position = bearing[:, None]
+        unsure = variance - self.noise(position, coverage)[:, 0, 0]
         return Scan(
             time=marks.time,
-            position=bearing[:, None],
+            position=position,
             covariance=variance[:, None, None],
             range_rate=np.full(M, np.nan),
             range_rate_variance=np.ones(M),
@@ -115,6 +118,7 @@ class Sonar:
             sensor_velocity=pose.velocity,
             coverage=coverage,
             volume=self.config.sector_width,
+            excess=(float(unsure.max(initial=0.0)), 0.0, 0.0),
         )
 
     def mark_sd(self, marks: Bearings) -> Floats:

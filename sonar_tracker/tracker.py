@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -109,7 +109,7 @@ class SonarTracker:
     def reconfigure(self, config: SonarTrackerConfig) -> None:
         """Go on with other live parameters from the next message; tracks are kept."""
         self.config = config
-        self.sonar = Sonar(config.sensor, self.sonar.usual_sd)
+        self.sonar = replace(self.sonar, config=config.sensor)
         self.core.setup = build_setup(config, self.sonar)
 
     def start_track(self, position: Floats, time: float) -> int:
@@ -167,10 +167,11 @@ class SonarTracker:
         return self.ranging.estimates(self.tracks, self.coverage)
 
     def _expect(self, bearings: Bearings, pose: PlatformPose) -> None:
-        """Open the gates for the least sure of these marks, with the heading at its time."""
+        """Open the gates for marks as sure as they usually are, and the heading at its worst."""
         if len(bearings):
-            sd = np.hypot(self.sonar.mark_sd(bearings), np.sqrt(pose.yaw_variance))
-            self.sonar = Sonar(self.config.sensor, float(sd.max()))
+            sd = self.sonar.mark_sd(bearings)[bearings.bearing_sd > 0.0]  # NaN: not told
+            usual = float(np.median(sd)) if len(sd) else 0.0
+            self.sonar = Sonar(self.config.sensor, usual, float(np.sqrt(pose.yaw_variance.max())))
             self.core.setup = self.core.setup.with_sensor(self.sonar)
 
     def _listen(self, pose: PlatformPose, start: float, end: float) -> Coverage:

@@ -25,6 +25,9 @@ from tracking_core.config import parameters
 
 RESERVED = 1000  # ids beyond those that are given away
 
+# Parameters of a node without which its tracks and frames mean something else.
+MEANING = ('tracking_frame', 'use_tf', 'input_type', 'fields.')
+
 
 class Keeper:
     """
@@ -47,10 +50,10 @@ class Keeper:
         self._session, self._clock = session, clock
         self._config = configs[1].snapshot
         self._path = Path(self._config.file).expanduser() if self._config.file else None
+        fixed = [p for p in parameters(configs[0]) if not p.live]
+        fixed += [p for p in parameters(configs[1]) if p.name.startswith(MEANING)]
         self._parameters = {
-            p.name: list(p.value) if isinstance(p.value, tuple) else p.value
-            for p in parameters(configs[0])
-            if not p.live
+            p.name: list(p.value) if isinstance(p.value, tuple) else p.value for p in fixed
         }
         self._bound = 0  # ids below are reserved in the file
         self._written = session.instrument.tracker.state  # what the file has

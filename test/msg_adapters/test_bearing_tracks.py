@@ -119,7 +119,10 @@ def test_bodies_are_those_that_are_located():
     assert bodies.id.tolist() == [2]
     np.testing.assert_allclose(bodies.state, [[2e3, 4e3, 0.0, 2.0, 4.0, 0.0]])
     np.testing.assert_array_equal(np.diag(bodies.covariance[0])[[0, 1, 3, 4]], [1, 2, 3, 4])
-    assert np.isnan(bodies.covariance[0, 2, 2])
+    P, off = bodies.covariance[0], ~np.eye(6, dtype=bool)
+    assert np.isnan(np.diag(P)[[2, 5]]).all()
+    np.testing.assert_array_equal(P[2, off[2]], 0.0)  # what is not known hangs on to nothing
+    np.testing.assert_array_equal(P[5, off[5]], 0.0)
 
 
 def drawn(types, tracks, observable, shown=(), axis=None):

@@ -142,6 +142,8 @@ def test_damaged_file_is_refused(kept, sensor, path, change, words):
     [
         ({'estimator': 'finite_memory'}, 0.0, 'parameter estimator was modified_polar, and is '),
         ({'max_tracks': 7}, 0.0, 'parameter max_tracks was 1000, and is 7 now'),
+        ({'tracking_frame': 'map'}, 0.0, 'parameter tracking_frame was , and is map now'),
+        ({'fields.bearing': 'brg'}, 0.0, 'parameter fields.bearing was , and is brg now'),
         ({}, 61.0, 'it is 61.0 s old, limit 60 s (snapshot.max_age)'),
         ({}, -5.0, 'it is -5.0 s old'),
     ],

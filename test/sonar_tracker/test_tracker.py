@@ -273,3 +273,23 @@ def test_config_refuses_what_does_not_fit(values, words: str) -> None:
     """Parameters that contradict each other are refused, with what would be right."""
     with pytest.raises(ValueError, match=words):
         with_values(SonarTrackerConfig(), values)
+
+
+def test_one_unsure_mark_ends_no_track():
+    """Three contacts in clutter, then a mark that tells an sd of half a radian."""
+    messages = cycles(drifting((10.0, 0.01), (80.0, -0.01), (-60.0, 0.0)), false_marks=30.0)
+    odd = messages[60]
+    sd = np.full(len(odd.bearing), 0.3 * DEGREE)
+    sd[-1] = 0.5
+    messages[60] = replace(odd, bearing_sd=sd)
+    _, seen = followed(messages, clutter_density=5.0)
+    held = [len(ids) for ids, _ in seen[59:70]]
+    assert min(held) >= 3
+
+
+def test_linear_array_in_clutter_confirms_its_contacts():
+    """Marks near the axis, which are blurred most, do not widen the gates of all."""
+    messages = cycles(drifting((60.0, 0.01), (90.0, -0.01), (120.0, 0.0)), false_marks=30.0)
+    values = {'sensor__array': 'linear', 'sensor__bearing_sd': 0.02}
+    _, seen = followed(messages, clutter_density=5.0, **values)
+    assert min(len(ids) for ids, _ in seen[60:]) >= 3

@@ -9,6 +9,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.tracker import RadarTracker
+from sonar_tracker.config import SonarTrackerConfig
+from sonar_tracker.tracker import SonarTracker
 from tracking_core.identity import keep_ids
 from tracking_core.rows import take
 
@@ -47,3 +49,14 @@ def test_nothing_to_compare_is_no_fault():
     nobody = replace(after, tracks=take(after.tracks, np.zeros(0, np.int64)))
     assert keep_ids(after, nobody, first=1).next_id == after.next_id
     assert_array_equal(keep_ids(after, after, first=3).tracks.id, [1, 2])
+
+
+def test_bearings_a_turn_apart_are_the_same():
+    """A contact beside +-pi, told on either side of it."""
+    tracker = SonarTracker(SonarTrackerConfig())
+    tracker.start_track(np.array([np.pi - 0.001]), 0.0)
+    before = tracker.state
+    tracker.reset()
+    tracker.start_track(np.array([-np.pi + 0.001]), 0.0)
+    kept = keep_ids(before, tracker.state, first=1, is_angular=True)
+    assert_array_equal(kept.tracks.id, before.tracks.id)
