@@ -20,7 +20,7 @@ Block = tuple[str, Mapping[Any, Any]]  # name or pattern of its nodes, its param
 
 
 class Loader(yaml.SafeLoader):
-    """YAML as rcl reads it: 1e5 is a number, and there are no aliases, which could grow a file."""
+    """YAML as rcl reads it: 1e5 and 1.0e5 are numbers; no aliases, which could grow a file."""
 
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
         """Return the next node; an alias is refused."""
@@ -30,7 +30,9 @@ class Loader(yaml.SafeLoader):
 
 
 Loader.add_implicit_resolver(
-    'tag:yaml.org,2002:float', re.compile(r'[-+]?[0-9]+[eE][-+]?[0-9]+$'), list('-+0123456789')
+    'tag:yaml.org,2002:float',
+    re.compile(r'[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+$'),
+    list('-+.0123456789'),
 )
 
 

@@ -12,7 +12,7 @@ from tempfile import mkdtemp
 from types import TracebackType
 from typing import Any
 
-from rosbags.highlevel import AnyReader
+from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import (
     Connection,
     Qos,
@@ -24,11 +24,14 @@ from rosbags.interfaces import (
 )
 from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
 from rosbags.rosbag2.enums import CompressionFormat
+from rosbags.serde import SerdeError
 from rosbags.typesys import get_typestore, Stores
 from rosbags.typesys.store import Typestore
 
 TYPESTORE: Typestore = get_typestore(Stores.ROS2_JAZZY)
 NANOSECONDS = 1_000_000_000
+POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
+UNREADABLE = (AnyReaderError, SerdeError)  # a message that is damaged
 MAX_ROWS = 1_000_000  # of one message that the tools read
 _STORAGE = 'recording'
 # What rmw reports for a publisher that sets neither deadline nor lifespan nor lease.

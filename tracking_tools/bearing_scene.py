@@ -76,8 +76,10 @@ def read_bearing_scene(
     if len(marks.get('time', ())) and platform is not None and turned:
         heading = pose_at(platform, marks['time']).yaw + sensor.mount.yaw
         marks = {**marks, 'bearing': wrap_angle(marks['bearing'] + heading)}
-    where = recording if truth is None else truth
-    real = _seen_from(platform, read_rows(where, topics.truth, table_rows))
+    where, seer = recording if truth is None else truth, platform
+    if truth is not None:  # it is seen from the ship that is told beside it
+        seer = read_platform(truth, topics.ownship) or platform
+    real = _seen_from(seer, read_rows(where, topics.truth, table_rows))
     table = read_rows(tracks, topics.tracks, table_rows)
     own: Columns = {} if platform is None else _own(platform)
     times = [part['time'] for part in (marks, table) if len(part.get('time', ()))]

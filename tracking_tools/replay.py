@@ -17,15 +17,14 @@ import sys
 import time
 from typing import Any
 
-from rosbags.highlevel import AnyReader, AnyReaderError
-from rosbags.serde import SerdeError
+from rosbags.highlevel import AnyReader
 from tqdm import tqdm
 
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.parameter_blocks import BadParameterFile
 from msg_adapters.session import Session
 from tracking_tools.arguments import file_to_write
-from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, open_bag
+from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, open_bag, POINT_CLOUD, UNREADABLE
 from tracking_tools.parameter_file import configure, parse_value, read_parameter_file
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.report import load_page
@@ -33,7 +32,6 @@ from tracking_tools.sensors import Configs, Sensor, SENSORS
 from tracking_tools.stopping import stoppable, STOPPED
 from tracking_tools.summary import Console, Summary
 
-POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
 RADAR = SENSORS['radar']
 
 
@@ -101,7 +99,7 @@ def _drive(
             session.counts[ours.name].received(None, 1)
             try:
                 msg = bag.deserialize(raw, connection.msgtype)
-            except (AnyReaderError, SerdeError):
+            except UNREADABLE:
                 session.counts[ours.name].refused['not readable'] += 1
                 continue
             began = time.perf_counter()

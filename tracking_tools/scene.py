@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from msg_adapters.bad_message import BadMessage
 from msg_adapters.message_types import seconds
 from msg_adapters.table import Columns, to_columns
 from msg_adapters.track_rows import CONFIRMED
 from radar_tracker.config import SensorConfig
 from tracking_core.batches import Bools, Floats, Ints
-from tracking_tools.bags import MAX_ROWS, open_bag
+from tracking_tools.bags import MAX_ROWS, open_bag, UNREADABLE
 from tracking_tools.own_ship import read_platform
 from tracking_tools.plot_places import PlotPlaces
 from tracking_tools.replay_topics import Topics
@@ -112,14 +113,17 @@ def turn_rate(path: Columns) -> Floats:
 
 
 def read_rows(path: Path | str, topic: str, convert: Callable[[Any], Columns]) -> Columns:
-    """Return the rows of all messages on a topic; empty if there is none."""
+    """Return the rows of all messages on a topic that can be read; empty if there is none."""
     tables: list[Columns] = []
     with open_bag(path) as bag:
         chosen = [connection for connection in bag.connections if connection.topic == topic]
         if not chosen:
             return {}
         for connection, _, raw in bag.messages(chosen):
-            columns = convert(bag.deserialize(raw, connection.msgtype))
+            try:
+                columns = convert(bag.deserialize(raw, connection.msgtype))
+            except (BadMessage, *UNREADABLE):
+                continue  # replay counts them
             if len(columns['time']):
                 tables.append(columns)
     common = set.intersection(*(set(table) for table in tables)) if tables else set()
@@ -138,6 +142,8 @@ def frame_of(path: Path | str, topic: str) -> str:
 
 def table_rows(msg: Any) -> Columns:
     """Return the columns of a table, with the time of each row and of the message [s]."""
+    if not hasattr(msg, 'point_step'):
+        raise BadMessage('another type', f'a {type(msg).__name__} is no table')
     columns = to_columns(msg, MAX_ROWS)
     offset = columns.get('time', np.zeros(msg.width * msg.height))
     stamp = np.full(len(offset), seconds(msg.header.stamp))

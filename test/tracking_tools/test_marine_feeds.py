@@ -135,6 +135,7 @@ def test_any_bytes_are_read_without_an_error(data, text):
         text.encode(),
         sentence(f'RATTM,{text}'),
         b'!AIVDM,1,1,,A,' + data + b',0*00',
+        b'!' + sentence(f'AIVDM,1,1,,A,{text},0')[1:],
     ):
         read_sentences(chunk, Counter(), ORIGIN)
         read_positions(chunk, Counter(), ORIGIN)
@@ -156,6 +157,47 @@ def test_sentences_within_an_interval_are_one_message():
     assert stamp == 6_000.0 + 58.0
     assert feed.take(ais(second=60)) is None  # neither a second nor a clock
     assert feed.counts['without a time'] == 1
+
+
+def test_what_waits_is_told_once_its_interval_is_over():
+    """Sentences 0.3 s apart, nothing in between: still one message a turn."""
+    feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
+    told = []
+    for turn in range(3):
+        for number in range(5):
+            now = 100.0 + 2.5 * turn + 0.3 * number
+            utc = f'1200{2.5 * turn + 0.3 * number:05.2f}'
+            told += [feed.take(ttm(number, utc=utc), now), feed.overdue(now + 0.2)]
+        told.append(feed.overdue(100.0 + 2.5 * turn + 2.1))
+    messages = [msg for _, msg in filter(None, told)]
+    assert [msg.width for msg in messages] == [5, 5, 5]
+
+
+@pytest.mark.parametrize('wrong', ['130003.00', '115500.00'])
+def test_time_that_goes_back_ends_a_message_and_is_counted(wrong):
+    """One sentence is an hour ahead, or five minutes behind: the others lose nothing."""
+    feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
+    lines = [ttm(1, utc=f'1200{second:05.2f}') for second in range(20)]
+    lines.insert(10, ttm(1, utc=wrong))
+    messages = [msg for _, msg in feed.messages(lines)]
+    assert sum(msg.width for msg in messages) == 21
+    assert max(msg.width for msg in messages) == 2
+    assert feed.counts['time went back'] == 1
+
+
+def test_ais_with_a_wrong_checksum_or_of_own_ship_is_counted():
+    """A bit may flip in a position: then the checksum is wrong, or the last part is gone."""
+    counts, whole = Counter(), ais()
+    place = whole.index(b',,') + 8
+    flipped = (
+        whole[:place] + (b'0' if whole[place : place + 1] != b'0' else b'1') + whole[place + 1 :]
+    )
+    assert len(read_positions(whole, counts, ORIGIN)) == 1
+    assert read_positions(flipped + whole.split(b'*')[0] + b'\r\n', counts, ORIGIN) == []
+    own = whole.split(b'*')[0].replace(b'AIVDM', b'AIVDO')
+    own += f'*{reduce(xor, own[1:]):02X}\r\n'.encode()
+    assert read_positions(own, counts, ORIGIN) == []
+    assert counts == {'damaged sentence, or a part of one': 2, 'another sentence': 1}
 
 
 def test_nmea_file_becomes_a_bag(tmp_path, capsys):

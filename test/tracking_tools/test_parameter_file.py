@@ -104,6 +104,7 @@ def test_parse_value_reads_numbers_as_ros_does():
     """An exponent needs no point, and a list is a list."""
     assert parse_value('1e5') == 1e5
     assert isinstance(parse_value('1e5'), float)
+    assert [parse_value(text) for text in ('4.0e4', '-.5e1', '2.E-1')] == [4e4, -5.0, 0.2]
     assert parse_value('[1.0, -2e-3]') == [1.0, -0.002]
     assert parse_value('1e5m') == '1e5m'
 

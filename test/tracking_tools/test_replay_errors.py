@@ -185,3 +185,22 @@ def test_directory_that_is_no_bag_is_told_so(tmp_path, capsys):
     assert main(words) == 1
     said = capsys.readouterr().err
     assert f'{tmp_path} is no rosbag2 recording: there is no metadata.yaml in it' in said
+
+
+@pytest.mark.parametrize('odd', ['plots', 'truth'])
+def test_pictures_and_pages_leave_out_what_replay_does(tmp_path, plots_message, odd):
+    """A plots message cut short, a truth that is no table: both are drawn all the same."""
+    with BagWriter(tmp_path / 'bag') as bag:
+        for k in range(6):
+            msg = plots_message(100.0 + 4.0 * k, range=[5e3, 7e3], azimuth=[0.1, 2.0])
+            bag.write('plots', msg, (200 + k) * NANOSECONDS)
+        if odd == 'plots':
+            raw = bytes(TYPESTORE.serialize_cdr(msg, msg.__msgtype__))
+            bag.write_raw('plots', msg.__msgtype__, raw[:70], 300 * NANOSECONDS)
+        else:
+            bag.write('truth', msg.header, 300 * NANOSECONDS)
+    shown = ['--picture', str(tmp_path / 'p.png'), '--report', str(tmp_path / 'p.html')]
+    given = [str(tmp_path / 'bag'), '--sensor', 'radar', '--output', str(tmp_path / 'out')]
+    assert main([*given, *shown, '--quiet']) == 0
+    assert (tmp_path / 'p.png').stat().st_size > 1000
+    assert (tmp_path / 'p.html').stat().st_size > 1000

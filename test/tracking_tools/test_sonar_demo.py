@@ -185,3 +185,13 @@ def test_picture_is_drawn_whatever_there_is(tmp_path, count):
     path = Path(tmp_path, 'picture.png')
     draw(BearingScene(marks if count else {}, tracks, {}, {}), path)
     assert path.read_bytes().startswith(PNG)
+
+
+def test_truth_of_another_bag_is_seen_from_the_ship_in_it(heard, tmp_path):
+    """With the tracks alone as recording, which have no own ship, bearings are the same."""
+    tracks = replayed(heard, tmp_path)
+    sensor = read_configs(PARAMETERS, {}, SONAR)[0].sensor
+    whole = read_bearing_scene(heard, tracks, TOPICS, sensor, {})
+    alone = read_bearing_scene(tracks, tracks, TOPICS, sensor, {}, truth=heard)
+    np.testing.assert_allclose(alone.truth['bearing'], whole.truth['bearing'], atol=1e-12)
+    assert np.ptp(whole.truth['bearing']) > 0.1

@@ -9,7 +9,9 @@ They tell the second of the minute at most: the rest of the time is when they ca
 from __future__ import annotations
 
 from collections import Counter
+from functools import reduce
 from importlib import import_module
+from operator import xor
 from typing import Any
 
 import numpy as np
@@ -18,6 +20,7 @@ from tracking_tools.feeds.report import polar_of, Report
 from tracking_tools.feeds.sources import lines_of
 
 POSITIONS = (1, 2, 3, 18)  # message types
+DAMAGED = 'damaged sentence, or a part of one'
 NO_LATITUDE, NO_LONGITUDE, NO_SECOND = 91.0, 181.0, 60  # what is sent for 'not known'
 
 
@@ -37,10 +40,17 @@ def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float
     """
     ais, reports = import_module('pyais'), []
     for line in lines_of(data, counts):
+        sentence = line[line.find('!') :]  # a block of tags may stand before it
+        if not _is_sound(sentence):
+            counts[DAMAGED] += 1
+            continue
+        if sentence[3:6] != 'VDM':  # VDO tells of own ship
+            counts['another sentence'] += 1
+            continue
         try:
-            message = ais.decode(line)
+            message = ais.decode(sentence)
         except (ais.exceptions.AISBaseException, ArithmeticError, LookupError, ValueError):
-            counts['damaged sentence, or a part of one'] += 1
+            counts[DAMAGED] += 1
             continue
         report, why = _to_report(message, origin)
         if report is None:
@@ -50,12 +60,18 @@ def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float
     return reports
 
 
+def _is_sound(sentence: str) -> bool:
+    """Return whether the checksum behind the * is there and right."""
+    body, _, told = sentence[1:].partition('*')
+    return told[:2].upper() == f'{reduce(xor, body.encode(), 0):02X}'
+
+
 def _to_report(message: Any, origin: tuple[float, float]) -> tuple[Report | None, str]:
     if message.msg_type not in POSITIONS:
         return None, 'another message'
     told = message.lat, message.lon, message.second, message.mmsi
     if None in told:  # a message that ends too early
-        return None, 'damaged sentence, or a part of one'
+        return None, DAMAGED
     latitude, longitude = float(message.lat), float(message.lon)
     if abs(latitude) >= NO_LATITUDE or abs(longitude) >= NO_LONGITUDE:
         return None, 'without a position'

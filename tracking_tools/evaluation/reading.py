@@ -15,7 +15,7 @@ from msg_adapters.message_types import seconds
 from msg_adapters.table import Columns
 from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Floats
-from tracking_tools.bags import BadBag, open_bag
+from tracking_tools.bags import BadBag, open_bag, POINT_CLOUD
 from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.evaluation.rows import (
     bearing_rows,
@@ -29,8 +29,6 @@ from tracking_tools.own_ship import read_platform
 from tracking_tools.replay_topics import inventory, Topics
 from tracking_tools.scene import choose, frame_of, read_rows, table_rows
 from tracking_tools.sensors import SENSORS
-
-POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
 
 
 def read_recorded(

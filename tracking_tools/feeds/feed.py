@@ -59,6 +59,7 @@ class Feed:
         self._interval = interval
         self.told = 0  # messages
         self._waiting: list[tuple[float, Report]] = []  # with their times [s]
+        self._since = np.nan  # when the first of these came [s]
 
     def take(self, data: bytes, now: float = np.nan) -> Told | None:
         """
@@ -71,13 +72,16 @@ class Feed:
         if not self._interval:
             self._waiting += ours
             return self.flush()
-        if not ours or not self._waiting:
-            self._waiting += ours
-            return None
-        is_over = max(time for time, _ in ours) - self._waiting[0][0] >= self._interval
-        told = self.flush() if is_over else None
+        since = [time - self._waiting[0][0] for time, _ in ours] if self._waiting else [0.0]
+        self.counts['time went back'] += min(since, default=0.0) <= -self._interval
+        told = self.flush() if max(np.abs(since), default=0.0) >= self._interval else None
+        self._since = self._since if self._waiting else now
         self._waiting += ours
         return told
+
+    def overdue(self, now: float) -> Told | None:
+        """Return what waits as a message if it has waited for the interval; `now` as in `take`."""
+        return self.flush() if now - self._since >= self._interval else None
 
     def flush(self) -> Told | None:
         """Return what waits for its interval to end as a message, None if nothing waits."""

@@ -116,7 +116,7 @@ def _hear(node: FeedNode, hearing: socket.socket, is_over: Callable[[], bool]) -
         try:
             data = hearing.recv(LARGEST)
         except TimeoutError:
-            told = node.feed.flush()
+            told = node.feed.overdue(time.time())
         else:
             now = time.time()
             node.feed.clock.set(now)

@@ -13,7 +13,7 @@ import numpy as np
 
 from tracking_core.batches import Floats
 from tracking_core.config import parameters
-from tracking_tools.bags import BadBag, open_bag
+from tracking_tools.bags import BadBag, open_bag, POINT_CLOUD
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
 from tracking_tools.evaluation import judge, Judgement, Yardstick
 from tracking_tools.evaluation.reading import read_tracks
@@ -110,7 +110,8 @@ def gather(
 def of_replay(kind: str, topics: Topics, recording: Path, tracks: Path) -> Sources:
     """Return the sources of a recording that was tracked, with its truth if it has one."""
     with open_bag(recording) as bag:
-        truth = recording if topics.truth in bag.topics else None
+        tables = {c.topic for c in bag.connections if c.msgtype == POINT_CLOUD}
+        truth = recording if topics.truth in tables else None
     return Sources(kind, topics, tracks, recording, truth)
 
 
