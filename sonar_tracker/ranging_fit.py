@@ -9,14 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from sonar_tracker.ranging_model import compare, in_axes, Legs, residuals
-from tracking_core.batches import Floats
+from tracking_core.batches import Bools, Floats
 from tracking_core.linalg import symmetrise, wrap_angle
 from tracking_core.rows import take
 
 _STARTS = 12  # ranges that are tried, evenly in their logarithm
 _STEPS = 25  # of Levenberg and Marquardt; half a dozen are usual
+_MOST_STEPS = 400  # of those few that creep along a valley, as with marks near an array's axis
 _DONE = 1e-4  # a step that lowers chi-square by less than this is the last
 _FIRST_DAMPING = 1e-3
+_STUCK = 1e9  # damping at which no step is left
 _RIDGE = 1e-9  # of the linear start, as a part of all that is known
 _FLOOR = 1e-12  # of the damping, in units of the best known parameter: no singular matrices
 
@@ -30,6 +32,7 @@ class Fit:
     information: Floats  # (T, 4, 4) of the state, Fisher
     chi_square: Floats  # (T,)
     serial: Floats  # (T,) sum of products of neighbouring residuals over its sd
+    arrived: Bools  # (T,) no step lowers chi-square any more
 
 
 def fit(legs: Legs, range_min: float, range_max: float) -> Fit:
@@ -49,12 +52,26 @@ def fit(legs: Legs, range_min: float, range_max: float) -> Fit:
 
     """
     low, high = legs.reach / range_max, legs.reach / range_min
-    state = _start(legs, low, high)
+    state, going = _descend(_start(legs, low, high), legs, low, high, _STEPS)
+    slow = np.flatnonzero(going)
+    if len(slow):
+        rest = take(legs, slow)
+        state[slow], going[slow] = _descend(state[slow], rest, low[slow], high[slow], _MOST_STEPS)
+    residual, slope = compare(state, legs)
+    count = (legs.weight > 0.0).sum(axis=1)
+    serial = (residual[:, 1:] * residual[:, :-1]).sum(axis=1) / np.sqrt(count)
+    information = symmetrise(np.swapaxes(slope, 1, 2) @ slope)
+    return Fit(state, slope, information, (residual**2).sum(axis=1), serial, ~going)
+
+
+def _descend(
+    state: Floats, legs: Legs, low: Floats, high: Floats, steps: int
+) -> tuple[Floats, Bools]:
+    """Return the states (T, 4) after so many steps at most, and which have not arrived (T,)."""
     residual, slope = compare(state, legs)
     chi_square = (residual**2).sum(axis=1)
-    damping = np.full(len(state), _FIRST_DAMPING)
-    going = np.ones(len(state), bool)
-    for _ in range(_STEPS):
+    damping, going = np.full(len(state), _FIRST_DAMPING), np.ones(len(state), bool)
+    for _ in range(steps):
         trial = state + _step(residual, slope, damping)
         trial[:, 3] = np.clip(trial[:, 3], low, high)
         new_residual, new_slope = compare(trial, legs)
@@ -65,14 +82,11 @@ def fit(legs: Legs, range_min: float, range_max: float) -> Fit:
         residual = np.where(better[:, None], new_residual, residual)
         slope = np.where(better[:, None, None], new_slope, slope)
         chi_square = np.where(better, new_chi_square, chi_square)
-        damping *= np.where(better, 0.1, 10.0)
-        going &= damping < 1e9
+        damping = np.minimum(damping * np.where(better, 0.1, 10.0), _STUCK)
+        going &= damping < _STUCK
         if not going.any():
             break
-    count = (legs.weight > 0.0).sum(axis=1)
-    serial = (residual[:, 1:] * residual[:, :-1]).sum(axis=1) / np.sqrt(count)
-    information = symmetrise(np.swapaxes(slope, 1, 2) @ slope)
-    return Fit(state, slope, information, chi_square, serial)
+    return state, going
 
 
 def _step(residual: Floats, slope: Floats, damping: Floats) -> Floats:

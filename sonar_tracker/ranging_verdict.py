@@ -61,9 +61,9 @@ def judge(best: Fit, legs: Legs, config: RangingConfig) -> Verdict:
     return Verdict(
         state=state,
         covariance=symmetrise(jacobian @ bound @ np.swapaxes(jacobian, 1, 2)),
-        observable=observable & (chance > config.false_alarm),
+        observable=observable & best.arrived & (chance > config.false_alarm),
         # A false alarm would cost the leg before the manoeuvre: be twice as sure.
-        bent=chance < config.false_alarm**2,
+        bent=best.arrived & (chance < config.false_alarm**2),
     )
 
 

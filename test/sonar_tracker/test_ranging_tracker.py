@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.testing import assert_array_equal
 import pytest
@@ -91,3 +93,25 @@ def test_config_refuses_what_does_not_fit(values, words: str) -> None:
     """Parameters that contradict each other are refused, with what would be right."""
     with pytest.raises(ValueError, match=words):
         RangingConfig(**values)
+
+
+@pytest.mark.parametrize('seed', [0, 9])
+def test_range_is_kept_while_the_bow_swings_across_the_contact(seed) -> None:
+    """Marks near a linear array's axis are blurred, and the fit creeps: it is not called bent."""
+    time = np.arange(1400.0)
+    heading = np.clip(0.01 * (time - 500.0), -1.2, 1.2)
+    steps = 5.0 * np.stack([np.cos(heading), np.sin(heading)], axis=1)[:-1]
+    place = np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
+    ship = platform_of(time, place, heading)
+    values = {'sensor.bearing_sd': 0.004, 'sensor.array': 'linear'}
+    tracker = SonarTracker(with_values(SonarTrackerConfig(), values))
+    rng, told = np.random.default_rng(seed), []
+    for k in range(1, 1400, 2):
+        line = np.array([3000.0, 4000.0]) - place[k]
+        bearing = np.arctan2(line[1], line[0]) - heading[k]
+        bearing += rng.normal(0.0, 0.004 / max(abs(np.sin(bearing)), 0.05))
+        heard = np.array([bearing])[: int(rng.random() < 0.9)]
+        marks = Bearings.of(np.full(len(heard), time[k]), wrap_angle(heard))
+        tracker.track(replace(marks, stamp=time[k]), ship)
+        told.append(bool(tracker.ranges().observable.any()))
+    assert np.mean(told[-200:]) == 1.0
