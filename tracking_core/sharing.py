@@ -66,7 +66,7 @@ def share_plots(
     """
     track = gated.pairs.track
     if common is not None:
-        existence = common.existence_apart
+        existence = np.where(_is_heard(gated, common), common.existence_apart, existence)
     weight = log(detection_probability * existence)[track] + gated.log_likelihood
     weight = weight - np.log(_other_sources(gated, scan, setup, density))
     detection = detection_probability * setup.gate_probability
@@ -128,6 +128,19 @@ def _share_in_common(
     taken = sum_by_track(probability, gated.pairs.track, T) + hidden
     approximate = usual.approximate | rough[common.partitions.unit_group[:T]]
     return Association(probability, np.maximum(1.0 - taken, 0.0), approximate), hidden
+
+
+def _is_heard(gated: Gated, common: Common) -> Bools:
+    """
+    Return which tracks (T,) are of a group that has a plot in one of its gates.
+
+    Without one there is nothing to share: who is one with whom says nothing, and two contacts
+    that are one are missed as probably as two that are not.
+    """
+    group = common.partitions.unit_group
+    heard = np.zeros(len(common.partitions.sizes), bool)
+    heard[group[gated.pairs.track]] = heard[group[common.unit]] = True
+    return np.asarray(heard[group[: len(common.existence_apart)]])
 
 
 def _other_sources(gated: Gated, scan: Scan, setup: Setup, density: Density) -> Floats:

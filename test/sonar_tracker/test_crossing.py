@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.testing import assert_allclose
 import pytest
@@ -86,3 +88,25 @@ def test_contacts_that_cross_at_the_wrap_keep_their_ids() -> None:
     assert ids[40][0] != ids[40][1]
     assert list(ids[-1]) == list(ids[40])
     assert tracker.tracks.confirmed.sum() == 2
+
+
+@pytest.mark.parametrize('seed', [1, 4])
+def test_contacts_in_one_mark_outlive_blank_cycles(seed) -> None:
+    """Two cross and give one mark; two cycles hear nothing of them: both keep their ids."""
+    resolution, noise = 0.05, 0.005
+    values = {'sensor.bearing_sd': noise, 'sensor.bearing_resolution': resolution}
+    tracker = SonarTracker(with_values(SonarTrackerConfig(), values))
+    rng, ids = np.random.default_rng(seed), []
+    for k in range(300):
+        apart = 6e-4 * 2.0 * (k - 150)
+        true = np.array([0.5, 0.5 + apart])
+        heard = true[rng.random(2) < 0.9] if abs(apart) > resolution else true.mean(keepdims=True)
+        heard = heard[:0] if k in (155, 156) else heard
+        marks = heard + rng.normal(0.0, noise, len(heard))
+        marks = np.append(marks, rng.uniform(-np.pi, np.pi, rng.poisson(3)))
+        time = np.full(len(marks), 2.0 * k)
+        tracks = tracker.track(replace(Bearings.of(time, marks), stamp=2.0 * k))
+        place, sure = tracks.planes[0].average[:, 0], tracks.confirmed
+        if k in (80, 299):
+            ids.append([tracks.id[sure][np.abs(place[sure] - b).argmin()] for b in true])
+    assert ids[0] == ids[1]
