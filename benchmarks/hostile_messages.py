@@ -10,12 +10,16 @@ Read ``column_faults.py`` and ``message_faults.py`` next: what can be wrong.
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
-from benchmarks.column_faults import Columns, OF_COLUMNS, Rng
-from benchmarks.message_faults import Cloud, OF_HEADER, OF_LAYOUT
+from benchmarks.column_faults import Columns, ODD_NUMBERS, ODD_TEXTS, OF_COLUMNS, Rng
+from benchmarks.message_faults import Cloud, odd_stamp, OF_HEADER, OF_LAYOUT
 from msg_adapters.table import DATATYPES
+
+NO_NUMBERS = [np.nan, np.inf, 1e30]
 
 
 def spoil(columns: Columns, stamp: float, frame: str, rng: Rng) -> Cloud:
@@ -46,6 +50,37 @@ def spoil(columns: Columns, stamp: float, frame: str, rng: Rng) -> Cloud:
     for fault in rng.choice(np.array(OF_HEADER), chosen.count(2)):
         cloud = fault(cloud, rng)
     return cloud
+
+
+def odd_odometry(frame: str, rng: Rng) -> Any:
+    """Return an odometry whose pose is bad; one that is well-formed would be a lie."""
+    numbers = [0.0, 0.0, 0.0, *rng.choice(ODD_NUMBERS, 4)]
+    numbers[int(rng.integers(7))] = float(rng.choice(NO_NUMBERS))
+    x, y, z, *q = map(float, numbers)
+    pose = SimpleNamespace(
+        position=SimpleNamespace(x=x, y=y, z=z),
+        orientation=SimpleNamespace(**dict(zip('xyzw', q, strict=True))),
+    )
+    velocity = SimpleNamespace(**dict(zip('xyz', rng.choice(ODD_NUMBERS, 3), strict=True)))
+    return SimpleNamespace(
+        header=_odd_header(frame, rng),
+        pose=SimpleNamespace(pose=pose, covariance=rng.choice(ODD_NUMBERS, 36)),
+        twist=SimpleNamespace(twist=SimpleNamespace(linear=velocity)),
+    )
+
+
+def odd_point(frame: str, rng: Rng) -> Any:
+    """Return a point that is nowhere; one that is somewhere would be an order."""
+    position = rng.choice(ODD_NUMBERS, 3)
+    position[rng.integers(3)] = rng.choice(NO_NUMBERS)
+    point = SimpleNamespace(**dict(zip('xyz', map(float, position), strict=True)))
+    return SimpleNamespace(header=_odd_header(frame, rng), point=point)
+
+
+def _odd_header(frame: str, rng: Rng) -> Any:
+    sec, nanosec = odd_stamp(rng)
+    frame = str(rng.choice([*ODD_TEXTS, *[frame] * 10]))
+    return SimpleNamespace(stamp=SimpleNamespace(sec=sec, nanosec=nanosec), frame_id=frame)
 
 
 def _lay_out(cloud: Cloud) -> Cloud:
