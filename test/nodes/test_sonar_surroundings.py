@@ -81,13 +81,15 @@ def test_fans_show_what_an_array_cannot_tell(start_node, probe, array):
     probe.spin_until(end.get_publisher_count)
     probe.confirmed()
     spaces = {'fan', 'gate', 'id'} | ({'mirror'} if array == 'linear' else set())
-    probe.spin_until(
-        lambda: drawings and spaces == {m.ns for m in drawings[-1].markers if m.action == 0}
-    )
-    fan = next(m for m in drawings[-1].markers if m.ns == 'fan')
+
+    def drawn():
+        return [m for m in drawings[-1].markers if m.action == 0] if drawings else []
+
+    probe.spin_until(lambda: spaces == {m.ns for m in drawn()})
+    fan = next(m for m in drawn() if m.ns == 'fan')
     assert fan.scale.x == pytest.approx(10_000.0)
     assert 0.0 < fan.scale.y < 300.0
     if array == 'linear':
-        other = next(m for m in drawings[-1].markers if (m.ns, m.id) == ('mirror', fan.id))
+        other = next(m for m in drawn() if (m.ns, m.id) == ('mirror', fan.id))
         assert other.colors[0].a < fan.colors[0].a
         assert other.pose.orientation.z == pytest.approx(-fan.pose.orientation.z)
