@@ -82,7 +82,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             publish = publisher.publish
             return int(publish(scene, ros_arguments, chosen.sectors, chosen.rate, chosen.wait))
         rows = record(scene, chosen.output, chosen.sectors, chosen.compress)
-    except (ValueError, FileExistsError) as error:
+    except (ValueError, OSError) as error:
         parser.error(str(error))
     topic = broadcast(scene).topic
     print(f'{chosen.output}: {scene.description}; {rows[topic]} {topic}, {rows[TRUTH]} true rows')

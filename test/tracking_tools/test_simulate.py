@@ -189,6 +189,7 @@ def test_bag_topics_are_absolute(tmp_path):
             '--duration: must be a number above 0, got -3',
         ),
         (['z0', '--output', 'x', '--sectors', '2'], 'must be 1 for a staring radar'),
+        (['turns', '--output', '/proc/nope/x'], '/proc/nope'),
         (
             ['sonar_watch', '--output', 'x', '--sectors', '2'],
             'sectors must be 1 for a sonar, got 2',

@@ -111,6 +111,8 @@ def test_evaluate_with_runs_is_a_sweep_without_settings(tmp_path: Path) -> None:
         (['crossing', '--set', 'association=jpda,pda,jpda'], 'association has jpda twice'),
         (['crossing', '--set', 'association=pda', '--set', 'association=jpda'], 'once'),
         (['crossing', '--remap', 'points:=/a'], 'FROM one of plots'),
+        (['crossing', '--set', 'sensor.range_sd= '], '--set sensor.range_sd has no value'),
+        (['crossing', '--gospa-power', '200'], '--gospa-power: must be from 1 to 20, got 200'),
         (['sonar_watch'], 'sonar_watch is a scenario of a sonar: give --sensor sonar'),
         (['crossing', '--sensor', 'sonar'], 'crossing is a scenario of a radar: give --sensor r'),
         (['bags/monday'], 'no recording at bags/monday'),

@@ -7,17 +7,20 @@ from __future__ import annotations
 import argparse
 import math
 
+from tracking_tools.arguments import positive
 from tracking_tools.evaluation.judging import Yardstick
+
+MOST_POWER = 20.0  # of GOSPA and OSPA
 
 
 def add_yardstick(parser: argparse.ArgumentParser) -> None:
     """Add the options of the yardstick."""
     add = parser.add_argument
-    add('--radius', type=_positive, help='match radius [m], default 1000; sonar [deg], 1.5')
-    add('--cutoff', type=_positive, help='of GOSPA and OSPA, default: the radius [m or deg]')
-    add('--gospa-power', type=_positive, default=2.0, metavar='P', help='default 2')
-    add('--ospa-power', type=_positive, default=1.0, metavar='P', help='default 1')
-    add('--turning', type=_positive, default=0.8, metavar='RATE',
+    add('--radius', type=positive, help='match radius [m], default 1000; sonar [deg], 1.5')
+    add('--cutoff', type=positive, help='of GOSPA and OSPA, default: the radius [m or deg]')
+    add('--gospa-power', type=_power, default=2.0, metavar='P', help='default 2')
+    add('--ospa-power', type=_power, default=1.0, metavar='P', help='default 1')
+    add('--turning', type=positive, default=0.8, metavar='RATE',
         help='a course that changes faster is a manoeuvre [deg/s], default 0.8')  # fmt: skip
 
 
@@ -31,8 +34,9 @@ def yardstick_of(chosen: argparse.Namespace, sensor: str) -> Yardstick:
     )  # fmt: skip
 
 
-def _positive(text: str) -> float:
-    number = float(text)
-    if not 0.0 < number < math.inf:
-        raise argparse.ArgumentTypeError(f'must be above 0, got {text}')
+def _power(text: str) -> float:
+    """Return the order of a metric: below 1 it is none, far above distances overflow."""
+    number = positive(text)
+    if not 1.0 <= number <= MOST_POWER:
+        raise argparse.ArgumentTypeError(f'must be from 1 to {MOST_POWER:g}, got {text}')
     return number

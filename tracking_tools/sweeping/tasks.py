@@ -115,6 +115,8 @@ def swept_values(texts: Sequence[str]) -> dict[str, list[Any]]:
         if name.strip() in swept:
             raise BadParameterFile(f'--set {name} is there twice: give {name}=V1,V2 once')
         tried = swept[name.strip()] = parse_value(f'[{values}]')
+        if not tried:
+            raise BadParameterFile(f'--set {name} has no value')
         twice = [value for k, value in enumerate(tried) if value in tried[:k]]
         if twice:
             raise BadParameterFile(f'--set {name} has {twice[0]} twice')
