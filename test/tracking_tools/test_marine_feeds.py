@@ -171,6 +171,7 @@ def test_what_waits_is_told_once_its_interval_is_over():
         told.append(feed.overdue(100.0 + 2.5 * turn + 2.1))
     messages = [msg for _, msg in filter(None, told)]
     assert [msg.width for msg in messages] == [5, 5, 5]
+    assert feed.counts == {'plots': 15}
 
 
 @pytest.mark.parametrize('wrong', ['130003.00', '115500.00'])

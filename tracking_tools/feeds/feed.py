@@ -73,7 +73,8 @@ class Feed:
             self._waiting += ours
             return self.flush()
         since = [time - self._waiting[0][0] for time, _ in ours] if self._waiting else [0.0]
-        self.counts['time went back'] += min(since, default=0.0) <= -self._interval
+        if min(since, default=0.0) <= -self._interval:
+            self.counts['time went back'] += 1
         told = self.flush() if max(np.abs(since), default=0.0) >= self._interval else None
         self._since = self._since if self._waiting else now
         self._waiting += ours
