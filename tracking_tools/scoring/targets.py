@@ -59,10 +59,12 @@ class Targets:
         seen = (last >= 0) & (first < len(starts) - 1)
         first, last = np.maximum(first, 0)[seen], np.minimum(last, len(starts) - 2)[seen]
         ids = ids[seen]
+        if len(ids) == 0:
+            return Targets(ids, first, last)
         # An absence that no whole scan falls into is none.
         away = (np.diff(ids) != 0) | (first[1:] > last[:-1] + 1)
-        begins, ends = np.append(True, away)[: len(ids)], np.append(away, True)[-len(ids) :]
-        return Targets(ids[begins], first[begins], last[ends[: len(ids)]])
+        begins, ends = np.append(True, away), np.append(away, True)
+        return Targets(ids[begins], first[begins], last[ends])
 
     @property
     def length(self) -> Ints:
