@@ -22,7 +22,8 @@ MEGABYTE, MILLISECOND = 1e6, 1e-3
 class Watch:
     """What was seen of the node so far, a span of turns at a time."""
 
-    memory: list[float] = field(default_factory=list)  # median of each span's turns [bytes]
+    memory: list[int] = field(default_factory=list)  # at the end of each span [bytes]
+    usual: list[float] = field(default_factory=list)  # median of each span's turns [bytes]
     cost: list[float] = field(default_factory=list)  # of each span, CPU of the node a turn [s]
     ours: list[float] = field(default_factory=list)  # the same of this process
     dead: set[int] = field(default_factory=set)
@@ -55,27 +56,28 @@ class Watch:
     def span(self, pid: int, turns: int) -> str:
         """Take note of the process after one more span of so many turns; return a line on it."""
         spent = cpu_time(pid), process_time()
-        self.memory.append(float(np.median(self._resident)))
+        self.memory.append(self._resident[-1])
+        self.usual.append(float(np.median(self._resident)))
         self._resident.clear()
         self.cost.append((spent[0] - self._spent[0]) / turns)
         self.ours.append((spent[1] - self._spent[1]) / turns)
         self._spent = spent
         ratio = self.cost[-1] / self.ours[-1]
         return (
-            f'{len(self.memory):2d}: {self.memory[-1] / MEGABYTE:6.1f} MB resident, '
+            f'{len(self.memory):2d}: {self.usual[-1] / MEGABYTE:6.1f} MB resident, '
             f'{self.cost[-1] / MILLISECOND:5.2f} ms of CPU a turn ({ratio:.2f} of ours), '
             f'{self.confirmed} confirmed, {self.newest} ids'
         )
 
     @property
     def growth(self) -> float:
-        """Share by which the memory of a span was ever more than that of the first."""
+        """Share by which memory was ever more than after the first span."""
         return max(self.memory[1:]) / self.memory[0] - 1.0
 
     @property
     def trend(self) -> float:
-        """Share by which memory is more in the second half than in the first."""
-        return _later(np.array(self.memory[1:], np.float64))
+        """Share by which memory is usually more in the second half than in the first."""
+        return _later(np.array(self.usual[1:], np.float64))
 
     @property
     def drift(self) -> float:

@@ -4,11 +4,15 @@
 
 from __future__ import annotations
 
+from array import array
 import ctypes
 import os
 from pathlib import Path
 
+import numpy as np
+
 _TICKS = os.sysconf('SC_CLK_TCK')
+TENTHS = 10
 _PAGE = os.sysconf('SC_PAGE_SIZE')
 _USER, _SYSTEM = 11, 12  # fields of /proc/PID/stat after the name
 
@@ -50,3 +54,31 @@ def own_allocations() -> float:
     libc.mallinfo2.restype = _Mallinfo
     told = libc.mallinfo2()
     return round((told.uordblks + told.hblkhd) / 1e6, 3)
+
+
+class Memory:
+    """What this process held and how large it was, look by look; told in tenths of them."""
+
+    def __init__(self) -> None:
+        # Lists of floats would be what grows.
+        self._held, self._resident = array('d'), array('d')
+
+    def look(self) -> None:
+        """Take note of both."""
+        self._held.append(own_allocations())
+        self._resident.append(own_memory())
+
+    @property
+    def held(self) -> list[float]:
+        """Medians of what malloc has given and not got back [MB]."""
+        return _tenths(self._held)
+
+    @property
+    def resident(self) -> list[float]:
+        """Medians of the resident memory [MB]."""
+        return _tenths(self._resident)
+
+
+def _tenths(looks: array[float]) -> list[float]:
+    parts = np.array_split(np.array(looks), TENTHS)
+    return [round(float(np.median(part)), 2) for part in parts if len(part)]

@@ -14,7 +14,6 @@ counted apart. Any other loss is a fault.
 from __future__ import annotations
 
 import argparse
-from array import array
 from collections import Counter
 from dataclasses import dataclass, field
 import logging
@@ -28,7 +27,7 @@ import numpy as np
 from benchmarks.column_faults import Columns, Rng
 from benchmarks.healthy_scenes import ASTRAY, HEALTHY, PERIOD, START, TRUE
 from benchmarks.hostile_messages import odd_odometry, odd_point, spoil
-from benchmarks.processes import own_allocations
+from benchmarks.processes import Memory
 from msg_adapters.message_types import rosbags_types, seconds
 from msg_adapters.session import Session
 from msg_adapters.table import from_columns, to_columns
@@ -40,7 +39,7 @@ TYPES = rosbags_types()
 WARM_UP = 15  # healthy scans before the siege
 INPUTS, SHARES = ('plots', 'ownship', 'acquire', 'cancel'), (0.85, 0.07, 0.05, 0.03)
 MANY = 100_000  # rows that no table has
-LOOK, TENTHS = 20, 10  # memory is looked at after so many messages
+LOOK = 20  # messages from one look at the memory to the next
 
 
 @dataclass
@@ -157,19 +156,19 @@ class Siege:
         assert len(np.unique(tracks.id)) == len(tracks)
 
 
-def besiege(siege: Siege, messages: int) -> list[float]:
-    """Send so many hostile messages; return the median of what is held [MB] in each tenth."""
-    looks = array('d')  # a list of floats would be what grows
+def besiege(siege: Siege, messages: int) -> Memory:
+    """Send so many hostile messages; return the memory on the way."""
+    memory = Memory()
     for number in range(messages):
         for _ in range(2 if siege.attack() else number % 2):
             siege.feed()
         if number % LOOK == 0:
-            looks.append(own_allocations())
-    return [float(np.median(part)) for part in np.array_split(looks, TENTHS) if len(part)]
+            memory.look()
+    return memory
 
 
-def stand(sensor: str, messages: int, seed: int = 1) -> tuple[dict[str, int], list[float]]:
-    """Return what became of so many hostile messages to a new session, and what it held [MB]."""
+def stand(sensor: str, messages: int, seed: int = 1) -> tuple[dict[str, int], Memory]:
+    """Return what became of so many hostile messages to a new session, and its memory."""
     siege = Siege(sensor, np.random.default_rng(seed))
     with warnings.catch_warnings():
         warnings.simplefilter('error')
@@ -187,7 +186,8 @@ def main() -> None:
     began = time.process_time()
     outcomes, memory = stand(chosen.sensor, chosen.messages, chosen.seed)
     print(f'{chosen.sensor}: {chosen.messages} hostile messages: {outcomes}')
-    print(f'CPU time {time.process_time() - began:.0f} s, held [MB] in tenths:', *memory)
+    print(f'CPU time {time.process_time() - began:.0f} s, held [MB] in tenths:', *memory.held)
+    print('resident [MB]:', *memory.resident)
 
 
 if __name__ == '__main__':
