@@ -67,7 +67,7 @@ class Odds:
     def _spread(self, noise: Floats, dt: Floats | float) -> Floats:
         """Return the covariance (K, d, d) of a step with this noise (K, d, d) after dt (K,)."""
         velocity = velocity_covariance(noise.shape[1], self.config)
-        return np.asarray(noise + np.multiply.outer(dt * dt, velocity))
+        return np.asarray(noise + np.multiply.outer(velocity, dt * dt).T)
 
 
 def _peak(size: Floats, d: int) -> Floats:
