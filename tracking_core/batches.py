@@ -289,5 +289,6 @@ class State:
     next_id: int = 1
     clutter_density: float = 0.0  # estimate so far, per unit of plot space
     clutter_looks: float = 0.0  # full looks that the estimate is from
+    leniency: float = 1.0  # tentative tracks may be so much less likely than usual
     time: float = -np.inf  # end of the last scan [s]
     report: StepReport = field(default_factory=StepReport)

@@ -22,7 +22,7 @@ _SURE = 1.0 - 1e-9  # no start is surer: the others of a plot may still be the r
 
 def start_tracks(
     scan: Scan, seen: Look, density: Density, interval: float, setup: Setup, state: State
-) -> tuple[Tracks, Seeds, float]:
+) -> tuple[Tracks, Seeds, float, float]:
     """
     Start tracks from the plots that no track claims.
 
@@ -47,6 +47,8 @@ def start_tracks(
         Plots that may start a track with a later one.
     used : float
         Plots that the new tracks explain.
+    leniency : float
+        Tentative tracks may be so much less likely than usual.
 
     """
     free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
@@ -74,7 +76,7 @@ def start_tracks(
         born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)
     else:
         born = take(seen.tracks, slice(0))
-    return born, concatenate(young, left), float(used.sum())
+    return born, concatenate(young, left), float(used.sum()), starts.leniency
 
 
 def _hidden(scan: Scan, seen: Look, setup: Setup, resolution: Resolution) -> Bools:
@@ -116,7 +118,7 @@ def one_a_plot(starts: Starts, plots: int) -> Starts:
     P = starts.covariance.reshape(*apart.shape, -1) + apart[:, :, None] * apart[:, None, :]
     P = sum_by_track(share * P, row, L).reshape(L, *starts.covariance.shape[1:])
     none_is_right = np.exp(np.bincount(row, np.log1p(-chance)))
-    return Starts(mean, P, 1.0 - none_is_right, ends, starts.hits)
+    return Starts(mean, P, 1.0 - none_is_right, ends, starts.hits, starts.leniency)
 
 
 def new_tracks(

@@ -80,6 +80,7 @@ class Density:
 
     clutter: float
     new_contacts: float
+    leniency: float = 1.0  # tentative tracks may be so much less likely than usual
 
     @property
     def total(self) -> float:

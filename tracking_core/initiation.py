@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+import math
 
 import numpy as np
 
@@ -15,9 +16,10 @@ from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import wrap_angle
 from tracking_core.looks import longest_since
 from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_covariance
-from tracking_core.rows import take, take_rows
+from tracking_core.rows import change, take, take_rows
 
 _MOST_PAIRS = 1_000_000  # of plots looked at; the last seeds go without
+_MOST_FAINT = 30  # starts of a look that are less likely than usual
 _NOISE_SIGMAS = 3.0  # by how much of the plots' noise the speed limit is widened
 
 
@@ -30,6 +32,7 @@ class Starts:
     existence_probability: Floats  # (K,)
     plot: Ints  # (K,) row of the newest plot
     hits: int  # plots that each start is made of
+    leniency: float = 1.0  # they may be so much less likely than usual
 
     @staticmethod
     def none(d: int) -> Starts:
@@ -81,7 +84,8 @@ def two_point(
     detection_probability : float
         P_D.
     least_existence : float
-        Pairs less likely than this are not worth a track; dense clutter starts nothing.
+        Pairs less likely than this are usually not worth a track. In clutter so dense that two
+        plots of a contact seldom are, the likeliest of the fainter pairs are, too.
     config : InitiationConfig
         Speed limits.
     is_angular : bool
@@ -95,12 +99,13 @@ def two_point(
     """
     odds = Odds(density, detection_probability, config)
     alone = odds.at_best(seeds, interval)
-    most = MOST_NEW * seeds.free
-    seeds = take(seeds, most * alone >= least_existence * (1.0 - most + most * alone))
+    leniency = odds.leniency(alone, seeds.free, least_existence)
+    most, least = MOST_NEW * seeds.free, least_existence / leniency
+    seeds = take(seeds, most * alone >= least * (1.0 - most + most * alone))
 
     old, new, step, dt = _within_reach(seeds, fresh, coverage, 0.5 * interval, config, is_angular)
     if len(old) == 0:
-        return Starts.none(step.shape[1])
+        return change(Starts.none(step.shape[1]), leniency=leniency)
     looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
     noise = take_rows(seeds.covariance, old) + take_rows(fresh.covariance, new)
     likely = odds.of_plots(fresh)[new] * odds.of_steps(noise, step, dt)
@@ -108,12 +113,24 @@ def two_point(
     evidence = np.bincount(old, likely, len(seeds)) - detection_probability
     prior = share_of_new(density.existence, np.asarray(evidence), seeds.free) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]
-    keep = (existence >= least_existence).nonzero()[0]
-    return _starts(
+    keep = _worth_a_track(existence, least_existence, leniency, coverage)
+    starts = _starts(
         take_rows(seeds.covariance, old[keep]), take_rows(fresh.covariance, new[keep]),
         take_rows(fresh.position, new[keep]), take_rows(step, keep), dt[keep], existence[keep],
         new[keep],
     )  # fmt: skip
+    return change(starts, leniency=leniency)
+
+
+def _worth_a_track(existence: Floats, least: float, leniency: float, coverage: Coverage) -> Ints:
+    """Return the pairs (K,) that are likely enough; of the faint ones, not too many in a turn."""
+    keep = existence >= least
+    if leniency > 1.0:
+        faint = ((existence >= least / leniency) & ~keep).nonzero()[0]
+        turn = min(abs(coverage.sweep) / (2.0 * np.pi), 1.0) if coverage.sweep else 1.0
+        most = math.ceil(_MOST_FAINT * turn)
+        keep[faint[np.argsort(-existence[faint], kind='stable')[:most]]] = True
+    return keep.nonzero()[0]
 
 
 def _within_reach(

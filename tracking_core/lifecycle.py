@@ -34,8 +34,14 @@ class Lifecycle(Protocol):
         """
         ...
 
-    def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
-        """Return which tracks (T,) are confirmed and which are to be deleted."""
+    def judge(
+        self, tracks: Tracks, existence: Floats, leniency: float = 1.0
+    ) -> tuple[Bools, Bools]:
+        """
+        Return which tracks (T,) are confirmed and which are to be deleted.
+
+        In dense clutter tentative tracks may be less likely than usual, by `leniency`.
+        """
         ...
 
 
@@ -59,10 +65,13 @@ class Existence:
         """Return which tracks (T,) more probably than not have a plot."""
         return np.asarray(found > MORE_LIKELY_THAN_NOT)
 
-    def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
+    def judge(
+        self, tracks: Tracks, existence: Floats, leniency: float = 1.0
+    ) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""
         confirmed = tracks.confirmed | (existence >= self.config.confirm)
-        return confirmed, existence < self.config.drop
+        eased = 1.0 if leniency == 1.0 else np.where(confirmed, 1.0, leniency)
+        return confirmed, existence * eased < self.config.drop
 
 
 @dataclass(frozen=True)
@@ -79,7 +88,9 @@ class MOfN:
         """Return which tracks (T,) more probably than not have a plot."""
         return np.asarray(found > MORE_LIKELY_THAN_NOT)
 
-    def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
+    def judge(
+        self, tracks: Tracks, existence: Floats, leniency: float = 1.0
+    ) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""
         return _count(tracks, self.config)
 
@@ -106,7 +117,9 @@ class ErrorRatio:
         old, new = before.moments()[1][:, 0, 0], after.moments()[1][:, 0, 0]
         return np.asarray(np.sqrt(np.maximum(new, 0.0) / old) < self.config.ratio)
 
-    def judge(self, tracks: Tracks, existence: Floats) -> tuple[Bools, Bools]:
+    def judge(
+        self, tracks: Tracks, existence: Floats, leniency: float = 1.0
+    ) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""
         return _count(tracks, self.config)
 

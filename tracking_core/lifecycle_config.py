@@ -37,8 +37,9 @@ class ExistenceConfig:
         0.98, unit='1', doc='a track at or above is confirmed', low=0.5, high=0.999999, live=True
     )
     drop: float = parameter(
-        0.02, unit='1', doc='a track below is deleted', low=1e-9, high=0.5, live=True
-    )
+        0.02, unit='1', low=1e-9, high=0.5, live=True,
+        doc='a track below is deleted; in dense clutter a tentative one later',
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""

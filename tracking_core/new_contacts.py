@@ -17,6 +17,8 @@ from tracking_core.linalg import determinant, inverse
 
 MOST_NEW = 0.9  # share of the unclaimed plots that new contacts can have made
 _STEPS = 5  # of expectation and maximisation
+_FAINTER = 0.1  # than at rest: a pair of a contact that moves, or was missed between
+_MOST_LENIENT = 1000.0  # in clutter that is denser still nothing can be followed
 _TRUST = 200.0  # plots that the expected share of new contacts counts for
 
 
@@ -47,6 +49,21 @@ class Odds:
         """Return the odds (S,) of a second plot just where the first is, dt [s] later."""
         spread = self._spread(2.0 * seeds.covariance, dt)
         return self.of_plots(seeds) * _peak(determinant(spread), spread.shape[1])
+
+    def leniency(self, at_best: Floats, free: Floats, least: float) -> float:
+        """
+        Return how much less likely than `least` new tracks may be, 1: not at all.
+
+        In dense clutter two plots of a contact prove little; were they held to what is usual, no
+        contact would ever be followed. `at_best` (S,) are the odds of the seeds, `free` (S,) the
+        chances that no known contact made them.
+        """
+        if len(at_best) == 0:
+            return 1.0
+        both = self.density.existence * free * at_best
+        middle = len(both) // 2
+        usual = np.partition(both / (1.0 + both), middle)[middle]
+        return float(np.clip(least / max(_FAINTER * usual, TINY), 1.0, _MOST_LENIENT))
 
     def of_plots(self, plots: Seeds) -> Floats:
         """Return P_D over the density of other plots (M,), of plots that may be a contact's."""

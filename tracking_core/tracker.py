@@ -13,16 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from tracking_core.batches import (
-    Coverage,
-    Floats,
-    Ints,
-    Scan,
-    Seeds,
-    State,
-    StepReport,
-    Tracks,
-)  # fmt: skip
+from tracking_core.batches import Coverage, Floats, Ints, Scan, Seeds, State, StepReport, Tracks
 from tracking_core.birth import new_tracks, start_tracks
 from tracking_core.clutter import estimate_density
 from tracking_core.composition import Density, Setup
@@ -88,7 +79,9 @@ class Tracker:
         interval = _interval(scan, state)
         density = self._density(state, scan, interval)
         seen = self._look(state.tracks, scan, density)
-        born, seeds, used = start_tracks(scan, seen, density, interval, self.setup, state)
+        born, seeds, used, leniency = start_tracks(
+            scan, seen, density, interval, self.setup, state
+        )
 
         kept, merged = self._without_doubles(seen)
         room = max(self.setup.max_tracks - len(kept), 0)
@@ -113,6 +106,7 @@ class Tracker:
             next_id=state.next_id + len(born),
             clutter_density=clutter,
             clutter_looks=looks,
+            leniency=leniency,
             time=max(scan.coverage.end_time, state.time),
             report=report,
         )
@@ -178,7 +172,7 @@ class Tracker:
         clutter = self.setup.clutter_density or state.clutter_density
         if clutter == 0.0:
             clutter, _ = estimate_density(0.0, 0.0, len(scan), volume, 1.0)
-        return Density(clutter, self.setup.new_contacts * interval / volume)
+        return Density(clutter, self.setup.new_contacts * interval / volume, state.leniency)
 
     def _clutter(self, state: State, scan: Scan, seen: Look, used: float) -> tuple[float, float]:
         """Return the estimate of the clutter density, and from how many looks it is."""

@@ -96,7 +96,7 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     gated, common = add_common(seen, gated, scan, setup)
     existence = seen.tracks.existence_probability
     share = share_plots(existence, seen.detection, gated, scan, setup, density, common)
-    updated, ended, broken = _update(seen, gated, share, scan, setup)
+    updated, ended, broken = _update(seen, gated, share, scan, setup, density.leniency)
     ended |= seen.crowd * density.total > _LOST  # it follows nobody any more
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
@@ -148,7 +148,7 @@ def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:
 
 
 def _update(
-    seen: Predicted, gated: Gated, share: Share, scan: Scan, setup: Setup
+    seen: Predicted, gated: Gated, share: Share, scan: Scan, setup: Setup, leniency: float
 ) -> tuple[Tracks, Bools, Bools]:
     """Return the updated tracks, which have ended, and which are no longer sound."""
     track, T = gated.pairs.track, len(seen.row)
@@ -170,7 +170,7 @@ def _update(
         level=_follow_level(seen.tracks, gated, share, scan),
         nis=np.where(found > 0.5, weighted / np.maximum(found, 0.5), np.nan),
     )
-    confirmed, ended = setup.lifecycle.judge(tracks, share.existence_probability)
+    confirmed, ended = setup.lifecycle.judge(tracks, share.existence_probability, leniency)
     ended |= has_left(tracks, seen.detection > 0.0)
     sound = [is_positive_definite(mixture.covariance).all(axis=1) for mixture in planes]
     return change(tracks, confirmed=confirmed), ended, ~np.logical_and.reduce(sound)

@@ -121,6 +121,18 @@ def test_two_point_does_not_start_in_dense_clutter() -> None:
     assert len(dense.plot) == 0
 
 
+def test_two_point_starts_faint_tracks_in_clutter_but_not_too_many() -> None:
+    """Where two plots of a contact prove little, the likeliest pairs are followed, 30 a look."""
+    grid = np.stack(np.meshgrid(np.arange(20), np.arange(20)), axis=-1).reshape(-1, 2) * 5e3
+    seeds, fresh = plots(0.0, grid), plots(4.0, grid + np.arange(400)[:, None])
+    density = Density(clutter=2e-7, new_contacts=1e-12)
+    starts = start(seeds, fresh, density, least=0.01)
+    assert starts.existence_probability.max() < 0.01
+    assert_array_equal(np.sort(starts.plot), np.arange(30))
+    assert starts.leniency > 1.0
+    assert len(start(seeds, fresh, Density(1e-12, 1e-11), least=0.01).plot) == 400
+
+
 def test_two_point_takes_nothing() -> None:
     """No old plots, no fresh ones, neither."""
     one, none = plots(0.0, [[0.0, 0.0]]), plots(0.0, np.zeros((0, 2)))
