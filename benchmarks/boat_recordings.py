@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.recordings import Columns, columns_of, load, Recording, targets_of
+from benchmarks.recordings import Columns, columns_of, load, Recording, stretches_of
 from tracking_core.batches import Floats, Ints, Plots
 from tracking_core.platform import Platform
-from tracking_tools.scoring import PlotRows, Targets, Truth
+from tracking_tools.scoring import PlotRows, Stretches, Truth
 
 _BOAT_RADIUS = 20.0  # match radius [m]
 
@@ -40,7 +40,8 @@ def autoferry(folder: Path, number: str) -> Recording:
     )
     return Recording(
         f'autoferry_{number}', 'fast_small_craft_radar', messages, plots, truth,
-        targets_of(plots, messages), _BOAT_RADIUS, 2.0, _platform(times, own), has_velocity=False,
+        stretches_of(plots, messages), _BOAT_RADIUS, 2.0, _platform(times, own),
+        has_velocity=False,
     )  # fmt: skip
 
 
@@ -57,7 +58,7 @@ def canal(folder: Path, name: str) -> Recording:
     return Recording(
         f'canal_{name[:10]}', 'harbour_radar', messages,
         PlotRows(times[scan], position, np.full(len(scan), -1)), truth,
-        Targets(nobody, nobody, nobody), _BOAT_RADIUS, 2.0,
+        Stretches(nobody, nobody, nobody), _BOAT_RADIUS, 2.0,
     )  # fmt: skip
 
 
@@ -70,23 +71,23 @@ def _relative(offset: Floats, time: float) -> Plots:
 
 
 def _nearest(truth: Truth, times: Floats, scan: Ints, position: Floats) -> PlotRows:
-    """Return of each scan and target the nearest plot, if within the match radius."""
-    rows, contact = [], []
-    for target in np.unique(truth.id):
-        gap = np.linalg.norm(position - truth.target(target).at(times[scan]).position, axis=1)
+    """Return of each scan and contact the nearest plot, if within the match radius."""
+    rows, owners = [], []
+    for contact in np.unique(truth.id):
+        gap = np.linalg.norm(position - truth.of_contact(contact).at(times[scan]).position, axis=1)
         least = np.full(len(times), _BOAT_RADIUS)
         np.minimum.at(least, scan, gap)
         rows.append(np.flatnonzero(gap == least[scan]))
-        contact.append(np.full(len(rows[-1]), target))
+        owners.append(np.full(len(rows[-1]), contact))
     row = np.concatenate(rows)
-    return PlotRows(times[scan[row]], position[row], np.concatenate(contact))
+    return PlotRows(times[scan[row]], position[row], np.concatenate(owners))
 
 
 def _slopes(d: Columns) -> Floats:
     """Return velocities (K, 2) from the samples of each boat."""
     velocity = np.zeros((len(d['truth_t']), 2))
-    for target in np.unique(d['truth_target']):
-        mine = d['truth_target'] == target
+    for contact in np.unique(d['truth_target']):
+        mine = d['truth_target'] == contact
         position = columns_of(d, 'truth_e', 'truth_n')[mine]
         velocity[mine] = np.gradient(position, d['truth_t'][mine], axis=0)
     return velocity

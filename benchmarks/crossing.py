@@ -30,7 +30,7 @@ from tracking_tools.scoring import (
     gospa_of_scans,
     join_rows,
     match,
-    Targets,
+    Stretches,
     TrackRows,
     Truth,
 )  # fmt: skip
@@ -56,7 +56,7 @@ class Outcome:
 
     gospa: float  # mean over the scans [m]
     localisation: float  # root mean square over the scans [m]
-    missed: float  # targets a scan
+    missed: float  # contacts a scan
     false: float  # tracks a scan
     switches: int
     milliseconds: float  # CPU of a scan
@@ -89,13 +89,13 @@ def _judge(scans: Sequence[SimulatedScan], rows: TrackRows, cost: float) -> Outc
     times = np.array([scan.start for scan in scans])
     parts = gospa_of_scans(rows, truth, times, cutoff=CUTOFF)
     matches = match(rows, truth, CUTOFF)
-    targets = Targets(np.unique(truth.id), np.zeros(2, np.int64), np.full(2, len(scans) - 1))
+    stretches = Stretches(np.unique(truth.id), np.zeros(2, np.int64), np.full(2, len(scans) - 1))
     return Outcome(
         gospa=float(np.mean([p.total for p in parts])),
         localisation=float(np.sqrt(np.mean([p.localisation for p in parts]))),
         missed=float(np.mean([p.missed for p in parts])),
         false=float(np.mean([p.false for p in parts])),
-        switches=continuity(rows, matches, matches.track, targets).switches,
+        switches=continuity(rows, matches, matches.track, stretches).switches,
         milliseconds=cost,
     )
 

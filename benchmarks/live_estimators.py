@@ -42,7 +42,7 @@ RESULT = PROJECT / 'docs' / 'results' / 'live_estimators.md'
 HEAD = """# Every estimator in the live node, on real aircraft
 
 `python -m benchmarks.live_estimators`: the first 10 minutes of `air_scene` ({scans} turns of 10 s,
-{targets} aircraft; ADS-B trajectories with simulated radar errors, misses and false plots) as a
+{contacts} aircraft; ADS-B trajectories with simulated radar errors, misses and false plots) as a
 bag, played over the middleware to a radar node in a process of its own, each message when the one
 before it was answered. Parameters are those of `config/{preset}.yaml`; nothing but `estimator`
 differs, and nothing was tuned for this table: these minutes belong to the half hour that is judged
@@ -115,7 +115,7 @@ def write_parameters(preset: str, estimator: str, path: Path) -> None:
 def line(name: str, result: Score, cost: float) -> str:
     """Return the row of the table; `cost` is per scan [ms]."""
     c, t = result.continuity, result.tracks
-    least = min(c.per_target.values())
+    least = min(c.held_per_contact.values())
     return (
         f'| `{name}` | {c.held:.3f} | {least:.3f} | {c.switches} | {c.ghosts} | {t.rmse:.0f} '
         f'| {result.gain:.2f} | {t.velocity_rmse:.1f} | {t.nees_position:.2f} '
@@ -144,7 +144,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             poor += [name] if result.continuity.held < WANTED else []
             print(rows[-1], flush=True)
     head = HEAD.format(
-        scans=given.turns, targets=len(scene.targets.id), preset=scene.preset,
+        scans=given.turns, contacts=len(scene.stretches.id), preset=scene.preset,
         radius=scene.radius, wanted=WANTED,
     )  # fmt: skip
     table_head = [f'| {" | ".join(COLUMNS)} |', '|' + '---|' * len(COLUMNS)]

@@ -55,7 +55,7 @@ def run(recording: Recording, config: RadarTrackerConfig) -> tuple[TrackRows, fl
 def judge(recording: Recording, rows: TrackRows) -> Score:
     """Compare the tracks of a recording with its truth."""
     return score(
-        rows, recording.truth, recording.plots, recording.targets, recording.radius,
+        rows, recording.truth, recording.plots, recording.stretches, recording.radius,
         recording.slack, recording.has_velocity,
     )  # fmt: skip
 
@@ -63,11 +63,11 @@ def judge(recording: Recording, rows: TrackRows) -> Score:
 def line(recording: Recording, result: Score, cost: float) -> str:
     """Return the row of the table."""
     c, t, p = result.continuity, result.tracks, result.plots
-    least = min(c.per_target.values(), default=float('nan'))
+    least = min(c.held_per_contact.values(), default=float('nan'))
     straight, turning = t.rmse_straight / p.rmse_straight, t.rmse_turning / p.rmse_turning
-    ghosts = c.ghosts if len(recording.targets.id) else float('nan')
+    ghosts = c.ghosts if len(recording.stretches.id) else float('nan')
     values = (
-        len(recording.messages), len(recording.targets.id), c.held, least, c.switches, c.breaks,
+        len(recording.messages), len(recording.stretches.id), c.held, least, c.switches, c.breaks,
         ghosts, c.tracks, c.purity, t.rmse, p.rmse, result.gain, straight, turning,
         t.velocity_rmse, t.nees_position, t.nees_state, cost,
     )  # fmt: skip
@@ -80,8 +80,8 @@ def offsets(recording: Recording, rows: TrackRows) -> Iterator[str]:
     if recording.platform is None:
         return
     matches = match(rows, recording.truth, recording.radius, recording.slack)
-    for target in recording.targets.id:
-        mine = take(matches, matches.target == target)
+    for contact in recording.stretches.id:
+        mine = take(matches, matches.contact == contact)
         error = rows.position[mine.row] - mine.position
         ahead = mine.velocity / np.linalg.norm(mine.velocity, axis=1, keepdims=True)
         along = (error * ahead).sum(axis=1)
@@ -89,7 +89,7 @@ def offsets(recording: Recording, rows: TrackRows) -> Iterator[str]:
         spread = np.sqrt(np.var(along) + np.var(left))
         lag = -np.mean(along) / np.linalg.norm(mine.velocity, axis=1).mean()
         yield (
-            f'  boat {target}: on average {np.mean(along):+.1f} m ahead ({lag:.1f} s late), '
+            f'  boat {contact}: on average {np.mean(along):+.1f} m ahead ({lag:.1f} s late), '
             f'{np.mean(left):+.1f} m to the left; {spread:.1f} m rms about that'
         )
 

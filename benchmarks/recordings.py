@@ -21,10 +21,10 @@ import numpy as np
 
 from tracking_core.batches import Floats, Plots
 from tracking_core.platform import Platform
-from tracking_tools.scoring import PlotRows, Targets, Truth
+from tracking_tools.scoring import PlotRows, Stretches, Truth
 
 PROJECT = Path(__file__).resolve().parent.parent
-_TURNING = np.deg2rad(0.3)  # from this turn rate on a target counts as turning [rad/s]
+_TURNING = np.deg2rad(0.3)  # from this turn rate on a contact counts as turning [rad/s]
 _EN_ROUTE_RADIUS = 3000.0  # match radius [m]
 Columns = dict[str, Any]
 
@@ -38,7 +38,7 @@ class Recording:
     messages: tuple[Plots, ...]
     plots: PlotRows
     truth: Truth
-    targets: Targets
+    stretches: Stretches
     radius: float  # match radius [m]
     slack: float  # one look [s]
     platform: Platform | None = None
@@ -52,7 +52,9 @@ class Recording:
         plots = PlotRows(
             *(getattr(self.plots, n)[inside] for n in ('time', 'position', 'contact'))
         )
-        return replace(self, messages=messages, plots=plots, targets=targets_of(plots, messages))
+        return replace(
+            self, messages=messages, plots=plots, stretches=stretches_of(plots, messages)
+        )
 
 
 def data_folder() -> Path:
@@ -92,7 +94,7 @@ def _air(name: str, preset: str, flights: Columns, seen: Columns, scene: int) ->
         columns_of(flights, 've', 'vn')[known],
         np.abs(flights['omega'][known]) > _TURNING,
     )
-    return Recording(name, preset, messages, plots, truth, targets_of(plots, messages),
+    return Recording(name, preset, messages, plots, truth, stretches_of(plots, messages),
                      _EN_ROUTE_RADIUS, period)  # fmt: skip
 
 
@@ -108,11 +110,11 @@ def _turns(time: Floats, distance: Floats, azimuth: Floats, period: float) -> tu
     )
 
 
-def targets_of(plots: PlotRows, messages: tuple[Plots, ...]) -> Targets:
-    """Return what ought to be held: each target from its fourth plot to its last."""
+def stretches_of(plots: PlotRows, messages: tuple[Plots, ...]) -> Stretches:
+    """Return what ought to be held: each contact from its fourth plot to its last."""
     stamps = np.array([message.stamp for message in messages])
     scan = np.searchsorted(stamps, plots.time, side='right') - 1
-    return Targets.of_plots(plots.contact, scan)
+    return Stretches.of_plots(plots.contact, scan)
 
 
 def columns_of(d: Columns, first: str, second: str) -> Floats:

@@ -51,7 +51,7 @@ def count_false(scene: Scene, holds: list[Hold]) -> int:
 
 def _hold(contact: int, truth: Columns, stamps: Floats, matches: Matches) -> Hold:
     path = choose(truth, truth['id'] == contact)
-    mine = take(matches, matches.target == contact)
+    mine = take(matches, matches.contact == contact)
     scans = np.searchsorted(stamps, path['stamp'])[START:]
     changed = np.flatnonzero(np.diff(mine.track)) + 1
     back, time = _returns(path['time']), stamps[mine.scan]

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from tracking_tools.scoring import (
     gospa_of_scans,
     join_rows,
     match,
-    Targets,
     TrackRows,
 )
 
@@ -47,10 +46,9 @@ def judge(scene: Scene, lap: Lap, scans: int) -> Verdict:
     parts = gospa_of_scans(rows, seen.truth, seen.times, cutoff=cutoff)[SETTLING:]
     matches = match(rows, seen.truth, cutoff)
     late = take(matches, matches.scan >= SETTLING)
-    begun = seen.targets.first_scan < scans
-    targets = take(seen.targets, begun)
-    targets = Targets(targets.id, targets.first_scan, np.minimum(targets.last_scan, scans - 1))
-    whole = continuity(rows, matches, matches.track, targets)
+    begun = take(seen.stretches, seen.stretches.first_scan < scans)
+    stretches = replace(begun, last_scan=np.minimum(begun.last_scan, scans - 1))
+    whole = continuity(rows, matches, matches.track, stretches)
     return Verdict(
         scans=lap.scans,
         gospa=float(np.mean([p.total for p in parts])),

@@ -13,7 +13,7 @@ import numpy as np
 from tracking_core.batches import Bools, Floats
 from tracking_core.motion import Motion
 from tracking_tools.scenarios import Contact
-from tracking_tools.scoring import Targets, Truth
+from tracking_tools.scoring import Stretches, Truth
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Scene:
     times: Floats  # (K,) [s]
     plots: tuple[Floats, ...]  # (M, d) in each scan
     truth: Truth
-    targets: Targets  # that ought to be held, from their fourth plot to their last
+    stretches: Stretches  # of contacts, from their fourth plot to their last
 
     def first(self, scans: int) -> Scene:
         """Return the beginning of the scene."""
@@ -125,7 +125,7 @@ def measured(
     who, when = np.nonzero(inside)
     truth = Truth.of(who + 1, times[when], position[who, when], velocity[who, when])
     contact, scan = np.nonzero(found)
-    return Scene(name, knowledge, times, plots, truth, Targets.of_plots(contact + 1, scan))
+    return Scene(name, knowledge, times, plots, truth, Stretches.of_plots(contact + 1, scan))
 
 
 def _clutter(knowledge: Knowledge, d: int, rng: np.random.Generator) -> Floats:

@@ -65,21 +65,21 @@ def random_scene() -> Callable[[int], tuple[TrackRows, Truth]]:
     """
     Return a function that makes tracks and truth of 30 scans for a seed.
 
-    Six targets that come and go; tracks with errors, gaps, doubles, a false one.
+    Six contacts that come and go; tracks with errors, gaps, doubles, a false one.
     """
 
     def scene(seed: int) -> tuple[TrackRows, Truth]:
         rng = np.random.default_rng(seed)
         samples, said = [], []
-        for target in range(6):
+        for contact in range(6):
             first, last = rng.integers(0, 8), rng.integers(20, 30)
             start, velocity = rng.uniform(-60.0, 60.0, 2), rng.uniform(-4.0, 4.0, 2)
             for k in range(first, last + 1):
                 place = start + k * velocity
-                samples.append([target, k, *place, *velocity])
-                for double in range(1 + (target == 3)):
+                samples.append([contact, k, *place, *velocity])
+                for double in range(1 + (contact == 3)):
                     if rng.uniform() < 0.85:
-                        track = 10 * target + double + 100 * (k > 14)
+                        track = 10 * contact + double + 100 * (k > 14)
                         error = rng.normal(0.0, [6.0, 6.0, 1.0, 1.0])
                         said.append([k, track, *(np.array([*place, *velocity]) + error)])
         said += [[k, 999, *rng.uniform(-60.0, 60.0, 2), 0.0, 0.0] for k in range(4, 20)]

@@ -20,7 +20,7 @@ from tracking_tools.scoring import (
     PlotRows,
     Score,
     score,
-    Targets,
+    Stretches,
     TrackRows,
     Truth,
 )
@@ -39,17 +39,17 @@ def rows(*table: tuple[int, int, float, float], sd: float = 1.0) -> TrackRows:
 
 
 def truth(*starts: float, scans: int = 6) -> Truth:
-    """Targets 0, 1, ... that fly east from x = 0 with 1 m/s at these y."""
+    """Contacts 0, 1, ... that fly east from x = 0 with 1 m/s at these y."""
     ids = np.repeat(np.arange(len(starts)), scans)
     time = np.tile(np.arange(float(scans)), len(starts))
     position = np.stack([time, np.repeat(starts, scans)], axis=1)
     return Truth.of(ids, time, position, np.tile([1.0, 0.0], (len(ids), 1)))
 
 
-def all_wanted(real: Truth) -> Targets:
-    """Every target in all its scans."""
+def all_wanted(real: Truth) -> Stretches:
+    """Every contact in all its scans."""
     ids = np.unique(real.id)
-    return Targets(ids, np.zeros(len(ids), np.int64), np.full(len(ids), int(real.time.max())))
+    return Stretches(ids, np.zeros(len(ids), np.int64), np.full(len(ids), int(real.time.max())))
 
 
 def judged(tracks: TrackRows, real: Truth) -> Score:
@@ -59,7 +59,7 @@ def judged(tracks: TrackRows, real: Truth) -> Score:
 
 
 def test_score_of_one_perfect_track() -> None:
-    """A track on its target is held all the time by one id, without an error."""
+    """A track on its contact is held all the time by one id, without an error."""
     result = judged(rows(*((k, 7, float(k), 0.0) for k in range(6))), truth(0.0))
     c = result.continuity
     assert (c.held, c.switches, c.breaks, c.ghosts, c.purity) == (1.0, 0, 0, 0, 1.0)
@@ -75,7 +75,7 @@ def test_score_counts_held_break_and_switch() -> None:
     assert (c.breaks, c.switches, c.latency, c.tracks) == (1, 1, 1.0, 2)
 
 
-def test_score_counts_a_swap_on_both_targets() -> None:
+def test_score_counts_a_swap_on_both_contacts() -> None:
     """Two tracks that change places are two switches, and half of their rows are impure."""
     table = [(k, 7 if k < 3 else 8, float(k), 0.0) for k in range(6)]
     table += [(k, 8 if k < 3 else 7, float(k), 30.0) for k in range(6)]
@@ -88,25 +88,25 @@ def test_score_counts_ghosts_of_five_rows() -> None:
     far = [(k, 9, 100.0, 100.0) for k in range(5)]
     short = [(k, 10, 100.0, 200.0) for k in range(4)]
     second = [(k, 11, float(k), 9.0 if k == 0 else 50.0) for k in range(6)]
-    on_target = [(k, 7, float(k), 0.0) for k in range(6)]
-    c = judged(rows(*far, *short, *second, *on_target), truth(0.0)).continuity
+    on_contact = [(k, 7, float(k), 0.0) for k in range(6)]
+    c = judged(rows(*far, *short, *second, *on_contact), truth(0.0)).continuity
     assert c.ghosts == 1
 
 
 def test_match_takes_the_pairs_with_the_least_sum() -> None:
-    """The nearest pair is given up when the other target would get no track."""
+    """The nearest pair is given up when the other contact would get no track."""
     matches = match(rows((0, 1, 0.0, 4.0), (0, 2, 0.0, 11.0)), truth(0.0, 5.0), RADIUS)
-    assert dict(zip(matches.target, matches.track, strict=True)) == {0: 1, 1: 2}
+    assert dict(zip(matches.contact, matches.track, strict=True)) == {0: 1, 1: 2}
 
 
 def test_match_prefers_the_nearer() -> None:
-    """Two tracks that are near both targets go to the nearer one each."""
+    """Two tracks that are near both contacts go to the nearer one each."""
     matches = match(rows((0, 1, 0.0, 4.0), (0, 2, 0.0, 1.0)), truth(0.0, 5.0), RADIUS)
-    assert dict(zip(matches.target, matches.track, strict=True)) == {0: 2, 1: 1}
+    assert dict(zip(matches.contact, matches.track, strict=True)) == {0: 2, 1: 1}
 
 
 def test_match_compares_with_the_truth_at_the_time_of_the_state() -> None:
-    """A state half a second old is compared with where the target was then."""
+    """A state half a second old is compared with where the contact was then."""
     tracks = rows((3, 7, 2.5, 0.0))
     tracks = TrackRows(
         tracks.scan, tracks.id, np.array([2.5]), tracks.position, tracks.velocity,
@@ -136,11 +136,11 @@ def test_score_counts_a_look_once() -> None:
     assert_allclose(result.continuity.held, 2.0 / 6.0)
 
 
-def test_targets_begin_with_their_fourth_plot() -> None:
-    """A target with plots in scans 1, 2, 4, 7, 9 is wanted from 7 to 9; with three, never."""
+def test_stretches_begin_with_the_fourth_plot() -> None:
+    """A contact with plots in scans 1, 2, 4, 7, 9 is wanted from 7 to 9; with three, never."""
     contact = np.array([5, 5, 5, 5, 5, 6, 6, 6, -1])
-    targets = Targets.of_plots(contact, np.array([1, 2, 4, 7, 9, 1, 2, 3, 4]))
-    assert (targets.id, targets.first_scan, targets.last_scan) == ([5], [7], [9])
+    stretches = Stretches.of_plots(contact, np.array([1, 2, 4, 7, 9, 1, 2, 3, 4]))
+    assert (stretches.id, stretches.first_scan, stretches.last_scan) == ([5], [7], [9])
 
 
 def test_truth_between_samples_follows_a_turn() -> None:
@@ -184,12 +184,12 @@ BASIC = {
 }  # fmt: skip
 
 
-def by_trial(estimates: Floats, targets: Floats, c: float, p: float, alpha: float) -> float:
+def by_trial(estimates: Floats, contacts: Floats, c: float, p: float, alpha: float) -> float:
     """GOSPA by its definition: the best of all permutations."""
-    if len(estimates) > len(targets):
-        estimates, targets = targets, estimates
-    m, n = len(estimates), len(targets)
-    gap = np.linalg.norm(estimates[:, None] - targets, axis=-1)
+    if len(estimates) > len(contacts):
+        estimates, contacts = contacts, estimates
+    m, n = len(estimates), len(contacts)
+    gap = np.linalg.norm(estimates[:, None] - contacts, axis=-1)
     best = min(
         sum(min(gap[i, j], c) ** p for i, j in enumerate(order))
         for order in permutations(range(n), m)
@@ -216,14 +216,14 @@ def test_gospa_parts_add_up() -> None:
 
 
 def test_gospa_tells_missed_from_false() -> None:
-    """Three estimates of which one is near one of two targets: one missed, two false."""
-    estimates, targets = np.array([[0.0], [50.0], [90.0]]), np.array([[3.0], [200.0]])
-    parts = gospa(estimates, targets, cutoff=10.0)
+    """Three estimates of which one is near one of two contacts: one missed, two false."""
+    estimates, contacts = np.array([[0.0], [50.0], [90.0]]), np.array([[3.0], [200.0]])
+    parts = gospa(estimates, contacts, cutoff=10.0)
     assert (parts.localisation, parts.missed, parts.false) == (9.0, 1, 2)
 
 
 def test_gospa_of_scans_by_hand() -> None:
-    """A target missed in scan 0 and found 3 m off in scan 1."""
+    """A contact missed in scan 0 and found 3 m off in scan 1."""
     real = truth(0.0, scans=2)
     first, second = gospa_of_scans(rows((1, 7, 4.0, 0.0)), real, np.array([0.0, 1.0]), cutoff=10.0)
     assert_allclose([first.total, second.total], [np.sqrt(50.0), 3.0])

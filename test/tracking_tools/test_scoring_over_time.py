@@ -10,7 +10,7 @@ import numpy as np
 from numpy.testing import assert_allclose
 import pytest
 
-from tracking_tools.scoring import match, Targets, TrackRows, Truth
+from tracking_tools.scoring import match, Stretches, TrackRows, Truth
 from tracking_tools.scoring.consistency import consistency
 from tracking_tools.scoring.continuity import find_changes
 from tracking_tools.scoring.matching import candidates
@@ -32,8 +32,8 @@ def rows(*table: tuple[int, int, float, float], angular: bool = False) -> TrackR
 
 
 def truth(*parts: tuple[int, float, range]) -> Truth:
-    """Targets (id, y, times) that stand at x = 0."""
-    ids = np.concatenate([np.full(len(times), target) for target, _, times in parts])
+    """Contacts (id, y, times) that stand at x = 0."""
+    ids = np.concatenate([np.full(len(times), contact) for contact, _, times in parts])
     time = np.concatenate([np.array(times, float) for _, _, times in parts])
     y = np.concatenate([np.full(len(times), place) for _, place, times in parts])
     position = np.stack([0.0 * y, y], axis=1)
@@ -43,20 +43,20 @@ def truth(*parts: tuple[int, float, range]) -> Truth:
 STARTS = np.arange(21.0)  # twenty scans of a second
 
 
-def test_targets_of_truth_leave_out_an_absence() -> None:
-    """A target seen in seconds 2 to 5 and 12 to 14 is wanted then and not between."""
-    targets = Targets.of_truth(truth((7, 0.0, range(2, 6)), (7, 0.0, range(12, 15))), STARTS)
-    assert targets.id.tolist() == [7, 7]
-    assert (targets.first_scan.tolist(), targets.last_scan.tolist()) == ([2, 12], [5, 14])
+def test_stretches_of_truth_leave_out_an_absence() -> None:
+    """A contact seen in seconds 2 to 5 and 12 to 14 is wanted then and not between."""
+    stretches = Stretches.of_truth(truth((7, 0.0, range(2, 6)), (7, 0.0, range(12, 15))), STARTS)
+    assert stretches.id.tolist() == [7, 7]
+    assert (stretches.first_scan.tolist(), stretches.last_scan.tolist()) == ([2, 12], [5, 14])
     scan = np.array([1, 2, 5, 6, 11, 12, 14, 15])
-    wanted = targets.wanted(np.full(len(scan), 7), scan)
+    wanted = stretches.wanted(np.full(len(scan), 7), scan)
     assert wanted.tolist() == [False, True, True, False, False, True, True, False]
 
 
-def test_targets_of_truth_end_with_the_tracks() -> None:
+def test_stretches_of_truth_end_with_the_tracks() -> None:
     """Truth before the first and after the last scan asks for nothing."""
-    targets = Targets.of_truth(truth((7, 0.0, range(-9, 40)), (8, 0.0, range(30, 40))), STARTS)
-    assert (targets.id, targets.first_scan, targets.last_scan) == ([7], [0], [19])
+    stretches = Stretches.of_truth(truth((7, 0.0, range(-9, 40)), (8, 0.0, range(30, 40))), STARTS)
+    assert (stretches.id, stretches.first_scan, stretches.last_scan) == ([7], [0], [19])
 
 
 def test_find_changes_tells_a_switch_from_a_return() -> None:
@@ -64,18 +64,18 @@ def test_find_changes_tells_a_switch_from_a_return() -> None:
     real = truth((7, 0.0, range(8)), (7, 0.0, range(14, 20)))
     ids = {0: 1, 1: 1, 2: 2, 3: 2, 6: 2, 14: 3, 15: 3}
     found = match(rows(*((k, i, 0.0, 1.0) for k, i in ids.items())), real, RADIUS)
-    changes = find_changes(found, Targets.of_truth(real, STARTS))
+    changes = find_changes(found, Stretches.of_truth(real, STARTS))
     assert (changes.switches, changes.breaks, changes.returns) == (1, 1, 1)
 
 
 def test_relative_tracking_time_halves_with_one_break() -> None:
     """Held in 10 of 10 scans: 1; with one scan missing in the middle: mean of 5 and 4 over 10."""
     real = truth((7, 0.0, range(10)))
-    targets = Targets.of_truth(real, STARTS)
+    stretches = Stretches.of_truth(real, STARTS)
     whole = match(rows(*((k, 1, 0.0, 0.0) for k in range(10))), real, RADIUS)
     broken = match(rows(*((k, 1, 0.0, 0.0) for k in range(10) if k != 5)), real, RADIUS)
-    assert relative_tracking_time(holders(whole, targets)) == 1.0
-    assert_allclose(relative_tracking_time(holders(broken, targets)), (5 + 4) / 2 / 10)
+    assert relative_tracking_time(holders(whole, stretches)) == 1.0
+    assert_allclose(relative_tracking_time(holders(broken, stretches)), (5 + 4) / 2 / 10)
 
 
 def test_segment_lengths_end_with_another_track() -> None:
@@ -100,12 +100,12 @@ def test_candidates_are_all_pairs_within_the_radius(interval: float) -> None:
     rng = np.random.default_rng(8)
     time = np.arange(0.0, 120.0, interval)
     parts = []
-    for target in range(12):
+    for contact in range(12):
         rate, radius = rng.uniform(-0.2, 0.2), rng.uniform(5.0, 60.0)
         angle = rng.uniform(0.0, 6.0) + rate * time
         turn = np.stack([np.cos(angle), np.sin(angle)], axis=1)
         ahead = radius * rate * np.stack([-turn[:, 1], turn[:, 0]], axis=1)
-        parts.append((np.full(len(time), target), time, radius * turn, ahead))
+        parts.append((np.full(len(time), contact), time, radius * turn, ahead))
     real = Truth.of(*(np.concatenate(column) for column in zip(*parts, strict=True)))
     N = 600
     tracks = TrackRows(
@@ -114,13 +114,13 @@ def test_candidates_are_all_pairs_within_the_radius(interval: float) -> None:
     )  # fmt: skip
     found = candidates(tracks, real, RADIUS, slack=3.0)
     expected = []
-    for target in range(12):
-        path = real.target(target)
+    for contact in range(12):
+        path = real.of_contact(contact)
         apart = np.linalg.norm(tracks.position - path.at(tracks.time).position, axis=1)
         there = (tracks.time >= time[0] - 3.0) & (tracks.time <= time[-1] + 3.0)
-        expected += [(int(row), target) for row in np.flatnonzero(there & (apart <= RADIUS))]
+        expected += [(int(row), contact) for row in np.flatnonzero(there & (apart <= RADIUS))]
     assert len(expected) > 100
-    assert set(zip(found.row.tolist(), found.target.tolist(), strict=True)) == set(expected)
+    assert set(zip(found.row.tolist(), found.contact.tolist(), strict=True)) == set(expected)
     assert len(found) == len(expected)
 
 
@@ -147,12 +147,12 @@ def test_ospa_parts_add_up() -> None:
 
 
 def test_distances_of_scans_know_who_is_there() -> None:
-    """A track 3 m from one of two targets, then none, then a false one and a target away."""
+    """A track 3 m from one of two contacts, then none, then a false one and a contact away."""
     real = truth((7, 0.0, range(3)), (8, 50.0, range(2)))
     tracks = rows((0, 1, 3.0, 0.0), (2, 9, 500.0, 0.0))
     near = candidates(tracks, real, RADIUS, 0.0)
-    targets = Targets.of_truth(real, STARTS[:4])
-    found = list(distances_of_scans(tracks, near, targets, 3, RADIUS))
+    stretches = Stretches.of_truth(real, STARTS[:4])
+    found = list(distances_of_scans(tracks, near, stretches, 3, RADIUS))
     assert [distance.tolist() for distance in found] == [[[3.0, RADIUS]], [], [[RADIUS]]]
     assert [distance.shape for distance in found] == [(1, 2), (0, 2), (1, 1)]
 
@@ -173,11 +173,11 @@ def test_consistency_leaves_out_what_is_not_there() -> None:
     assert np.isnan(consistency(np.array([np.nan]), 2).mean)
 
 
-def test_siap_counts_every_track_at_its_nearest_target() -> None:
-    """Two tracks on one of two targets and one on none, in one scan."""
+def test_siap_counts_every_track_at_its_nearest_contact() -> None:
+    """Two tracks on one of two contacts and one on none, in one scan."""
     real = truth((7, 0.0, range(1)), (8, 9.0, range(1)))
     tracks = rows((0, 1, 0.0, 1.0), (0, 2, 0.0, 3.0), (0, 3, 99.0, 0.0))
-    found = siap(tracks, candidates(tracks, real, RADIUS, 0.0), Targets.of_truth(real, STARTS))
+    found = siap(tracks, candidates(tracks, real, RADIUS, 0.0), Stretches.of_truth(real, STARTS))
     assert (found.completeness, found.ambiguity) == (0.5, 2.0)
     assert_allclose((found.spuriousness, found.position_accuracy), (1.0 / 3.0, 2.0))
 

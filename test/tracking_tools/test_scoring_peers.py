@@ -11,7 +11,7 @@ import numpy as np
 from numpy.testing import assert_allclose
 import pytest
 
-from tracking_tools.scoring import continuity, match, Targets, track_error
+from tracking_tools.scoring import continuity, match, Stretches, track_error
 from tracking_tools.scoring.accuracy import normalised
 from tracking_tools.scoring.consistency import consistency
 
@@ -24,10 +24,10 @@ TOLERANCE = 1e-9
 
 @pytest.fixture(params=range(5))
 def matched(request: pytest.FixtureRequest, random_scene: Any) -> Any:
-    """Return rows, their matches and the targets of one random scene."""
+    """Return rows, their matches and the stretches of one random scene."""
     rows, truth = random_scene(request.param)
-    targets = Targets.of_truth(truth, np.arange(SCANS + 1.0))
-    return rows, match(rows, truth, RADIUS), targets
+    stretches = Stretches.of_truth(truth, np.arange(SCANS + 1.0))
+    return rows, match(rows, truth, RADIUS), stretches
 
 
 def test_nees_is_that_of_both(matched: Any) -> None:
@@ -60,12 +60,12 @@ def test_band_of_the_mean_is_that_of_nrl_tracker(size: int, dimensions: int) -> 
 
 
 def test_switches_and_purity_are_those_of_nrl_tracker(matched: Any) -> None:
-    """Every target is there without a gap, so all their fragmentations are our switches."""
-    rows, matches, targets = matched
-    mixed = replace(matches, track=matches.track // 20)  # two targets share an id
+    """Every contact is there without a gap, so all their fragmentations are our switches."""
+    rows, matches, stretches = matched
+    mixed = replace(matches, track=matches.track // 20)  # two contacts share an id
     for one in (matches, mixed):
-        ours = continuity(rows, one, np.unique(one.track), targets)
-        labels = one.target, one.track
+        ours = continuity(rows, one, np.unique(one.track), stretches)
+        labels = one.contact, one.track
         assert ours.switches == theirs.track_fragmentation(*labels, one.scan)
         assert ours.switches > 0
         assert_allclose(ours.purity, theirs.track_purity(*labels), rtol=TOLERANCE)

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 import pytest
 
 from tracking_core.rows import take
-from tracking_tools.scoring import continuity, Matches, Targets, track_error, TrackRows, Truth
+from tracking_tools.scoring import continuity, Matches, Stretches, track_error, TrackRows, Truth
 from tracking_tools.scoring.gospa import gospa_of_distances
 from tracking_tools.scoring.matching import candidates, choose_pairs
 from tracking_tools.scoring.ospa import distances_of_scans, ospa_of_distances
@@ -74,25 +74,25 @@ def their_truth(truth: Truth) -> dict[int, GroundTruthPath]:
 def associations(on: Matches, tracks: dict[int, Any], paths: dict[int, Any]) -> AssociationSet:
     """Return our choice of pairs, each at its moments, for Stone Soup to judge."""
     found = set()
-    for track, target in np.unique(np.stack([on.track, on.target], axis=1), axis=0):
-        moments = on.scan[(on.track == track) & (on.target == target)]
+    for track, contact in np.unique(np.stack([on.track, on.contact], axis=1), axis=0):
+        moments = on.scan[(on.track == track) & (on.contact == contact)]
         ranges = CompoundTimeRange([TimeRange(at(k - 0.1), at(k + 0.1)) for k in moments])
-        found.add(TimeRangeAssociation({tracks[int(track)], paths[int(target)]}, ranges))
+        found.add(TimeRangeAssociation({tracks[int(track)], paths[int(contact)]}, ranges))
     return AssociationSet(found)
 
 
 @pytest.fixture(params=range(5))
 def compared(request: pytest.FixtureRequest, random_scene: Any) -> Any:
-    """Return rows, truth, candidates and targets of one random scene."""
+    """Return rows, truth, candidates and stretches of one random scene."""
     rows, truth = random_scene(request.param)
     starts = np.arange(SCANS + 1.0)
     near = candidates(rows, truth, CUTOFF, 0.0)
-    return rows, truth, near, Targets.of_truth(truth, starts)
+    return rows, truth, near, Stretches.of_truth(truth, starts)
 
 
 def test_gospa_and_its_parts_are_those_of_stone_soup(compared: Any) -> None:
     """Total, localisation, missed and false agree in every scan."""
-    rows, truth, near, targets = compared
+    rows, truth, near, stretches = compared
     tracks, paths = their_tracks(rows), their_truth(truth)
     generator = GOSPAMetric(p=2, c=CUTOFF, measure=Euclidean(mapping=PLACE))
     theirs = generator.compute_over_time(
@@ -100,7 +100,7 @@ def test_gospa_and_its_parts_are_those_of_stone_soup(compared: Any) -> None:
         *generator.extract_states(paths.values(), True),
     )
     values = {metric.timestamp: metric.value for metric in theirs.value}
-    for k, distance in enumerate(distances_of_scans(rows, near, targets, SCANS, CUTOFF)):
+    for k, distance in enumerate(distances_of_scans(rows, near, stretches, SCANS, CUTOFF)):
         ours = gospa_of_distances(distance, CUTOFF)
         their = values.get(at(k))
         if their is None:  # nothing there and nothing said
@@ -114,21 +114,21 @@ def test_gospa_and_its_parts_are_those_of_stone_soup(compared: Any) -> None:
 
 def test_ospa_is_that_of_stone_soup(compared: Any) -> None:
     """It agrees in every scan for power 1 (for others theirs minimises sums of first powers)."""
-    rows, truth, near, targets = compared
+    rows, truth, near, stretches = compared
     generator = OSPAMetric(p=1, c=CUTOFF, measure=Euclidean(mapping=PLACE))
     theirs = generator.compute_over_time(
         *generator.extract_states(their_tracks(rows).values(), True),
         *generator.extract_states(their_truth(truth).values(), True),
     )
     values = {metric.timestamp: metric.value for metric in theirs.value}
-    for k, distance in enumerate(distances_of_scans(rows, near, targets, SCANS, CUTOFF)):
+    for k, distance in enumerate(distances_of_scans(rows, near, stretches, SCANS, CUTOFF)):
         ours = ospa_of_distances(distance, CUTOFF).total
         assert_allclose(ours, values.get(at(k), 0.0), rtol=TOLERANCE, atol=TOLERANCE)
 
 
 def test_siap_is_that_of_stone_soup(compared: Any) -> None:
     """The five measures agree when both are told the same pairs."""
-    rows, truth, near, targets = compared
+    rows, truth, near, stretches = compared
     tracks, paths = their_tracks(rows), their_truth(truth)
     generator = SIAPMetrics(
         position_measure=Euclidean(mapping=PLACE), velocity_measure=Euclidean(mapping=SPEED)
@@ -137,7 +137,7 @@ def test_siap_is_that_of_stone_soup(compared: Any) -> None:
     manager.add_data({'tracks': set(tracks.values()), 'groundtruth_paths': set(paths.values())})
     manager.association_set = associations(nearest(near), tracks, paths)
     theirs = {metric.title: metric.value for metric in generator.compute_metric(manager)}
-    ours = siap(rows, near, targets)
+    ours = siap(rows, near, stretches)
     for name in ('completeness', 'ambiguity', 'spuriousness', 'position_accuracy',
                  'velocity_accuracy'):  # fmt: skip
         their = theirs[f'SIAP {name.replace("_", " ").title()}']
@@ -146,7 +146,7 @@ def test_siap_is_that_of_stone_soup(compared: Any) -> None:
 
 def test_held_and_switches_add_up_to_their_clear_mot(compared: Any) -> None:
     """MOTA counts misses, false rows and switches from one scan to the next; MOTP is distance."""
-    rows, truth, near, targets = compared
+    rows, truth, near, stretches = compared
     pairs, tracks, paths = choose_pairs(near, CUTOFF), their_tracks(rows), their_truth(truth)
     generator = ClearMotMetrics(distance_measure=Euclidean(mapping=PLACE))
     manager = MultiManager([generator])
@@ -155,9 +155,9 @@ def test_held_and_switches_add_up_to_their_clear_mot(compared: Any) -> None:
     theirs = {metric.title: metric.value for metric in generator.compute_metric(manager)}
     at_once = sum(
         int((np.diff(mine.track)[np.diff(mine.scan) == 1] != 0).sum())
-        for mine in (take(pairs, pairs.target == target) for target in range(6))
+        for mine in (take(pairs, pairs.contact == contact) for contact in range(6))
     )
-    held = continuity(rows, pairs, np.unique(near.track), targets).held
+    held = continuity(rows, pairs, np.unique(near.track), stretches).held
     wrong = (1.0 - held) * len(truth.id) + len(rows) - len(pairs) + at_once
     assert at_once > 0
     assert_allclose(1.0 - wrong / len(truth.id), theirs['MOTA'], rtol=TOLERANCE)
@@ -172,7 +172,7 @@ def test_rmse_is_that_of_their_distances(compared: Any) -> None:
     for mapping, value in ((PLACE, ours.rmse), (SPEED, ours.velocity_rmse)):
         measure = Euclidean(mapping=mapping)
         squares = [
-            measure(tracks[int(track)][at(k)], paths[int(target)][at(k)]) ** 2
-            for track, target, k in zip(on.track, on.target, on.scan, strict=True)
+            measure(tracks[int(track)][at(k)], paths[int(contact)][at(k)]) ** 2
+            for track, contact, k in zip(on.track, on.contact, on.scan, strict=True)
         ]
         assert_allclose(value, np.sqrt(np.mean(squares)), rtol=TOLERANCE)

@@ -9,31 +9,31 @@ import numpy as np
 from tracking_core.rows import take
 from tracking_tools.evaluation.judgement import ContactJudgement
 from tracking_tools.evaluation.recorded import Recorded
-from tracking_tools.scoring import Matches, Targets, track_error
+from tracking_tools.scoring import Matches, Stretches, track_error
 from tracking_tools.scoring.continuity import find_changes
 from tracking_tools.scoring.onsets import find_onsets
 from tracking_tools.scoring.segments import holders, NOBODY, relative_tracking_time
-from tracking_tools.scoring.targets import stretches
+from tracking_tools.scoring.stretches import spans
 
 NAN = float('nan')
 
 
 def judge_contacts(
-    recorded: Recorded, matches: Matches, targets: Targets
+    recorded: Recorded, matches: Matches, stretches: Stretches
 ) -> tuple[ContactJudgement, ...]:
     """Return the figures of every contact that was there while tracks were recorded."""
     return tuple(
-        _contact(recorded, take(matches, matches.target == contact), targets, int(contact))
-        for contact in np.unique(targets.id)
+        _contact(recorded, take(matches, matches.contact == contact), stretches, int(contact))
+        for contact in np.unique(stretches.id)
     )
 
 
 def _contact(
-    recorded: Recorded, mine: Matches, targets: Targets, contact: int
+    recorded: Recorded, mine: Matches, stretches: Stretches, contact: int
 ) -> ContactJudgement:
-    path, there = recorded.truth.target(contact), targets.of_target(contact)
+    path, there = recorded.truth.of_contact(contact), stretches.of_contact(contact)
     ids, changes = holders(mine, there), find_changes(mine, there)
-    begin, end, _ = stretches(path)
+    begin, end, _ = spans(path)
     seen = (end >= recorded.starts[0]) & (begin < recorded.starts[-1])
     begin = np.maximum(begin[seen], recorded.starts[0])
     end = np.minimum(end[seen], recorded.starts[-1])

@@ -27,7 +27,7 @@ from tracking_tools.evaluation.ranges import judge_ranges
 from tracking_tools.evaluation.reading import read_recorded
 from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.evaluation.tracks import judge_tracks
-from tracking_tools.scoring import continuity, GospaParts, Matches, Targets, track_error
+from tracking_tools.scoring import continuity, GospaParts, Matches, Stretches, track_error
 from tracking_tools.scoring.accuracy import normalised
 from tracking_tools.scoring.consistency import Consistency, consistency
 from tracking_tools.scoring.gospa import gospa_of_distances
@@ -73,15 +73,15 @@ def judge(recorded: Recorded, yardstick: Yardstick) -> Judgement:
     """Return all figures of a recording."""
     rows, truth = recorded.rows, recorded.truth
     radius, cutoff = yardstick.of_sensor(recorded.sensor)
-    targets = Targets.of_truth(truth, recorded.starts)
+    stretches = Stretches.of_truth(truth, recorded.starts)
     slack = float(np.median(np.diff(recorded.starts)))  # rows just before or after all samples
     wide = candidates(rows, truth, max(radius, cutoff), slack)
     close = take(wide, wide.distance <= radius)
-    near = take(close, targets.wanted(close.target, close.scan))
+    near = take(close, stretches.wanted(close.contact, close.scan))
     matches = choose_pairs(near, radius) if len(near) else near
-    contacts = judge_contacts(recorded, matches, targets)
+    contacts = judge_contacts(recorded, matches, stretches)
     far = take(wide, wide.distance <= cutoff)
-    gospas, ospas = _sets(recorded, far, targets, cutoff, yardstick)
+    gospas, ospas = _sets(recorded, far, stretches, cutoff, yardstick)
     starts = recorded.starts
     return Judgement(
         sensor=recorded.sensor,
@@ -91,13 +91,13 @@ def judge(recorded: Recorded, yardstick: Yardstick) -> Judgement:
         tracks=len(np.unique(rows.id)),
         radius=radius,
         dimensions=int(rows.position.shape[1]),
-        held=_held(recorded, matches, close, targets, contacts),
+        held=_held(recorded, matches, close, stretches, contacts),
         timing=_timing(recorded, matches, contacts),
         accuracy=track_error(rows, matches, recorded.has_velocity),
         **_consistencies(recorded, matches),
         gospa=_gospa(gospas, cutoff, yardstick.gospa_power),
         ospa=_ospa(ospas, cutoff, yardstick.ospa_power),
-        siap=siap(rows, near, targets),
+        siap=siap(rows, near, stretches),
         ranges=judge_ranges(recorded, matches),
         per_contact=contacts,
         per_track=judge_tracks(recorded, matches, close),
@@ -115,10 +115,10 @@ def _held(
     recorded: Recorded,
     matches: Matches,
     close: Matches,
-    targets: Targets,
+    stretches: Stretches,
     contacts: Sequence[ContactJudgement],
 ) -> Held:
-    found = continuity(recorded.rows, matches, np.unique(close.track), targets, least_rows=1)
+    found = continuity(recorded.rows, matches, np.unique(close.track), stretches, least_rows=1)
     return Held(
         found.held, found.breaks, found.switches, found.lasting_switches, found.returns,
         found.purity,
@@ -163,10 +163,10 @@ def _consistencies(recorded: Recorded, matches: Matches) -> dict[str, Consistenc
 
 
 def _sets(
-    recorded: Recorded, near: Matches, targets: Targets, cutoff: float, yardstick: Yardstick
+    recorded: Recorded, near: Matches, stretches: Stretches, cutoff: float, yardstick: Yardstick
 ) -> tuple[list[GospaParts], list[OspaParts]]:
     """Return both metrics of every scan."""
-    distances = list(distances_of_scans(recorded.rows, near, targets, recorded.scans, cutoff))
+    distances = list(distances_of_scans(recorded.rows, near, stretches, recorded.scans, cutoff))
     return (
         [gospa_of_distances(d, cutoff, yardstick.gospa_power) for d in distances],
         [ospa_of_distances(d, cutoff, yardstick.ospa_power) for d in distances],

@@ -24,8 +24,8 @@ def judge_ranges(recorded: Recorded, matches: Matches) -> Ranges | None:
     told = take(matches, np.isfinite(table['range'][matches.row]))
     share = len(told) / len(matches) if len(matches) else NAN
     true = np.full(len(told), NAN)
-    for contact in np.unique(told.target):
-        mine, path = told.target == contact, real['id'] == contact
+    for contact in np.unique(told.contact):
+        mine, path = told.contact == contact, real['id'] == contact
         time = recorded.rows.time[told.row[mine]]
         true[mine] = np.interp(time, real['time'][path], real['range'][path])
     error = table['range'][told.row].astype(np.float64) - true

@@ -52,7 +52,7 @@ def read_recorded(
     sensor : str, optional
         'radar' or 'sonar'; the tracks tell by themselves which.
     turning : float
-        A target turns when its course changes faster than this [rad/s].
+        A contact turns when its course changes faster than this [rad/s].
 
     Raises
     ------

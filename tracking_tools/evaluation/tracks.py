@@ -52,5 +52,5 @@ def _main(mine: Matches) -> int | None:
     """Return the contact that a track was on most often, None for a false track."""
     if not len(mine):
         return None
-    contacts, count = np.unique(mine.target, return_counts=True)
+    contacts, count = np.unique(mine.contact, return_counts=True)
     return int(contacts[count.argmax()])

@@ -25,7 +25,7 @@ def positions_of(table: Columns, turning: float) -> Truth:
     table : dict of columns
         id, time, x, y; z, vx, vy, vz where there are.
     turning : float
-        A target turns when its course changes faster than this [rad/s].
+        A contact turns when its course changes faster than this [rad/s].
 
     """
     table = _complete(table)
@@ -42,8 +42,8 @@ def bearings_of(table: Columns, platform: Platform | None, turning: float) -> Tr
     square = np.maximum((line**2).sum(axis=1), 1e-12)
     rate = (line[:, 0] * speed[:, 1] - line[:, 1] * speed[:, 0]) / square
     bearing = np.arctan2(line[:, 1], line[:, 0])
-    for target in np.unique(table['id']):
-        mine = table['id'] == target
+    for contact in np.unique(table['id']):
+        mine = table['id'] == contact
         bearing[mine] = np.unwrap(bearing[mine])
     return Truth.of(
         table['id'], table['time'], bearing[:, None], rate[:, None], _turning(table, turning)
@@ -59,9 +59,9 @@ def ranges_of(table: Columns, platform: Platform | None) -> Columns:
 
 
 def _complete(table: Columns) -> Columns:
-    """Return the table sorted by target and time, with all that a truth has."""
+    """Return the table sorted by contact and time, with all that a truth has."""
     _, once = np.unique(np.stack([table['id'], table['time']]), axis=1, return_index=True)
-    table = choose(table, once)  # sorted by target, then time
+    table = choose(table, once)  # sorted by contact, then time
     table = {**table, 'id': table['id'].astype(np.int64)}
     nothing = np.full(len(table['id']), np.nan)
     table['z'] = np.nan_to_num(table.get('z', nothing))  # if not all are known, none is compared
@@ -74,8 +74,8 @@ def _complete(table: Columns) -> Columns:
 def _slope(table: Columns, axis: str) -> Floats:
     """Return how fast a coordinate changes where the truth does not tell [m/s]."""
     speed = np.zeros(len(table['id']))
-    for target in np.unique(table['id']):
-        mine = table['id'] == target
+    for contact in np.unique(table['id']):
+        mine = table['id'] == contact
         if mine.sum() > 1:
             speed[mine] = np.gradient(table[axis][mine].astype(float), table['time'][mine])
     return speed
@@ -83,8 +83,8 @@ def _slope(table: Columns, axis: str) -> Floats:
 
 def _turning(table: Columns, limit: float) -> Bools:
     turns = np.zeros(len(table['id']), bool)
-    for target in np.unique(table['id']):
-        mine = table['id'] == target
+    for contact in np.unique(table['id']):
+        mine = table['id'] == contact
         path = choose(table, mine)
         moves = np.hypot(path['vx'], path['vy']) > SLOWEST
         turns[mine] = moves & (np.abs(smooth_turn_rate(path)) > limit)

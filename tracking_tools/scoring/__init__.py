@@ -3,7 +3,7 @@
 """
 How good are the tracks? Measures of tracks against truth, without ROS.
 
-Read ``records`` (what is compared), ``targets`` (what ought to be held), ``matching`` (who is
+Read ``records`` (what is compared), ``stretches`` (what ought to be held), ``matching`` (who is
 whose), ``continuity``, ``accuracy`` and ``consistency`` (how well), ``gospa`` and ``ospa`` (all in
 one figure), ``siap``, ``onsets``, and ``score`` (all measures beside the plots) in this order.
 """
@@ -20,7 +20,7 @@ from tracking_tools.scoring.records import (
     Truth,
 )
 from tracking_tools.scoring.score import Score, score
-from tracking_tools.scoring.targets import Targets
+from tracking_tools.scoring.stretches import Stretches
 
 __all__ = [
     'Accuracy',
@@ -29,7 +29,7 @@ __all__ = [
     'Matches',
     'PlotRows',
     'Score',
-    'Targets',
+    'Stretches',
     'TrackRows',
     'Truth',
     'confirmed_rows',

@@ -32,7 +32,7 @@ class Accuracy:
 
 
 def track_error(rows: TrackRows, matches: Matches, has_velocity: bool = True) -> Accuracy:
-    """Return how far the matched rows are from their targets; each look counts once."""
+    """Return how far the matched rows are from their contacts; each look counts once."""
     new = rows.is_new[matches.row]
     row, truth = matches.row[new], matches
     position = rows.position[row] - truth.position[new]
@@ -53,11 +53,11 @@ def track_error(rows: TrackRows, matches: Matches, has_velocity: bool = True) ->
 
 
 def plot_error(plots: PlotRows, truth: Truth) -> Accuracy:
-    """Return how far the plots are from the targets that made them."""
+    """Return how far the plots are from the contacts that made them."""
     errors, turning = [np.zeros((0, plots.position.shape[1]))], [np.zeros(0, bool)]
-    for target in np.unique(truth.id):
-        mine = plots.contact == target
-        place = truth.target(target).at(plots.time[mine])
+    for contact in np.unique(truth.id):
+        mine = plots.contact == contact
+        place = truth.of_contact(contact).at(plots.time[mine])
         errors.append(plots.position[mine] - place.position)
         turning.append(place.turning)
     error = np.concatenate(errors)

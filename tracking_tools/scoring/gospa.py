@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How far is a set of estimates from the set of targets? GOSPA, with its parts."""
+"""How far is a set of estimates from the set of contacts? GOSPA, with its parts."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ class GospaParts:
 
     total: float  # [m]
     localisation: float  # sum over the pairs [m^p]
-    missed: int  # targets without an estimate
-    false: int  # estimates without a target
+    missed: int  # contacts without an estimate
+    false: int  # estimates without a contact
 
 
 def gospa(
     estimates: Floats,
-    targets: Floats,
+    contacts: Floats,
     cutoff: float = 1000.0,
     power: float = 2.0,
     alpha: float = 2.0,
@@ -37,14 +37,14 @@ def gospa(
 
     Parameters
     ----------
-    estimates, targets : (N, d), (M, d) arrays
+    estimates, contacts : (N, d), (M, d) arrays
         [m]
     cutoff : float
         c, the distance that counts as not found [m].
     power : float
         p.
     alpha : float
-        2: a pair beyond the cutoff is a target missed and an estimate false.
+        2: a pair beyond the cutoff is a contact missed and an estimate false.
 
     References
     ----------
@@ -52,15 +52,15 @@ def gospa(
     metric, 2017, definition 1 and proposition 1.
 
     """
-    N, M = len(estimates), len(targets)
-    distance = cdist(estimates, targets) if N and M else np.zeros((N, M))
+    N, M = len(estimates), len(contacts)
+    distance = cdist(estimates, contacts) if N and M else np.zeros((N, M))
     return gospa_of_distances(distance, cutoff, power, alpha)
 
 
 def gospa_of_distances(
     distance: Floats, cutoff: float = 1000.0, power: float = 2.0, alpha: float = 2.0
 ) -> GospaParts:
-    """Return the metric from the distances (N, M) of estimates and targets."""
+    """Return the metric from the distances (N, M) of estimates and contacts."""
     N, M = distance.shape
     if N == 0 or M == 0:
         return GospaParts(float((cutoff**power / alpha * (N + M)) ** (1.0 / power)), 0.0, M, N)
@@ -85,16 +85,16 @@ def gospa_of_scans(
     rows : TrackRows
         What the tracker said; rows of scan k are compared with the truth at ``scan_times[k]``.
     truth : Truth
-        A target is there from its first sample to its last.
+        A contact is there from its first sample to its last.
     scan_times : (K,) array
         [s]
     **options : float
         Of `gospa`.
 
     """
-    targets = [truth.target(target) for target in np.unique(truth.id)]
-    present = np.array([(t.time[0] <= scan_times) & (scan_times <= t.time[-1]) for t in targets])
-    places = np.array([target.at(scan_times).position for target in targets])
+    contacts = [truth.of_contact(contact) for contact in np.unique(truth.id)]
+    present = np.array([(c.time[0] <= scan_times) & (scan_times <= c.time[-1]) for c in contacts])
+    places = np.array([contact.at(scan_times).position for contact in contacts])
     return [
         gospa(rows.position[rows.scan == k], places[present[:, k], k], **options)
         for k in range(len(scan_times))

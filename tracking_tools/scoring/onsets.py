@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How soon does the manoeuvre probability tell that a target turns?"""
+"""How soon does the manoeuvre probability tell that a contact turns?"""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ QUIET = 3  # samples straight before, and turning after, the onset of a manoeuvr
 
 @dataclass(frozen=True)
 class Onsets:
-    """Manoeuvres of targets that a track was on, and when it told of them."""
+    """Manoeuvres of contacts that a track was on, and when it told of them."""
 
     begin: Floats  # (Q,) [s]
     delay: Floats  # (Q,) from the onset to the first row that tells [s], NaN: not told in the turn
@@ -37,9 +37,9 @@ class Onsets:
         return int(np.isfinite(self.delay).sum())
 
 
-def find_onsets(rows: TrackRows, probability: Floats, matches: Matches, target: Truth) -> Onsets:
+def find_onsets(rows: TrackRows, probability: Floats, matches: Matches, contact: Truth) -> Onsets:
     """
-    Return the manoeuvres of one target.
+    Return the manoeuvres of one contact.
 
     Parameters
     ----------
@@ -48,16 +48,16 @@ def find_onsets(rows: TrackRows, probability: Floats, matches: Matches, target: 
     probability : (N,) array
         Of a manoeuvre, row by row.
     matches : Matches
-        Of this target.
-    target : Truth
+        Of this contact.
+    contact : Truth
         Its samples.
 
     """
     time, told = rows.time[matches.row], probability[matches.row] >= SURE
     begin, delay = [], []
-    for first, last in zip(*_turns(target), strict=True):
-        onset = 0.5 * (target.time[first - 1] + target.time[first])
-        inside = (time >= onset) & (time <= target.time[last])
+    for first, last in zip(*_turns(contact), strict=True):
+        onset = 0.5 * (contact.time[first - 1] + contact.time[first])
+        inside = (time >= onset) & (time <= contact.time[last])
         if inside.any():
             tells = time[inside & told]
             begin.append(onset)
@@ -65,9 +65,9 @@ def find_onsets(rows: TrackRows, probability: Floats, matches: Matches, target: 
     return Onsets(np.array(begin), np.array(delay))
 
 
-def _turns(target: Truth) -> tuple[list[int], list[int]]:
+def _turns(contact: Truth) -> tuple[list[int], list[int]]:
     """Return first and last sample of each turn that begins after straight motion."""
-    edge = np.flatnonzero(np.diff(target.turning.astype(int), prepend=0, append=0))
+    edge = np.flatnonzero(np.diff(contact.turning.astype(int), prepend=0, append=0))
     first, last = edge[::2], edge[1::2] - 1
     before = np.concatenate([[-1], last[:-1]])
     fits = (first - before > QUIET) & (last - first + 1 >= QUIET)
@@ -75,6 +75,6 @@ def _turns(target: Truth) -> tuple[list[int], list[int]]:
 
 
 def false_alarms(probability: Floats, matches: Matches) -> float:
-    """Return in which share of the rows on straight targets a manoeuvre was told."""
+    """Return in which share of the rows on straight contacts a manoeuvre was told."""
     straight = take(matches, ~matches.turning)
     return float((probability[straight.row] >= SURE).mean()) if len(straight) else NAN

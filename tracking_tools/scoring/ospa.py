@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How far is a set of estimates from the set of targets? OSPA, and distances scan by scan."""
+"""How far is a set of estimates from the set of contacts? OSPA, and distances scan by scan."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scipy.optimize import linear_sum_assignment
 from tracking_core.batches import Floats, Ints
 from tracking_tools.scoring.matching import Matches
 from tracking_tools.scoring.records import TrackRows
-from tracking_tools.scoring.targets import Targets
+from tracking_tools.scoring.stretches import Stretches
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ def ospa_of_distances(distance: Floats, cutoff: float, power: float = 1.0) -> Os
     Parameters
     ----------
     distance : (N, M) array
-        Of the estimates and the targets [m].
+        Of the estimates and the contacts [m].
     cutoff : float
         c, the distance that counts as not found [m].
     power : float
@@ -55,10 +55,10 @@ def ospa_of_distances(distance: Floats, cutoff: float, power: float = 1.0) -> Os
 
 
 def distances_of_scans(
-    rows: TrackRows, near: Matches, targets: Targets, scans: int, cutoff: float
+    rows: TrackRows, near: Matches, stretches: Stretches, scans: int, cutoff: float
 ) -> Iterator[Floats]:
     """
-    Yield the distances (N, M) of all tracks and targets of each scan, each at the track's time.
+    Yield the distances (N, M) of all tracks and contacts of each scan, each at the track's time.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def distances_of_scans(
         Sorted by scan.
     near : Matches
         Candidates within the cutoff; all other distances are the cutoff.
-    targets : Targets
+    stretches : Stretches
         Which are there.
     scans : int
         How many.
@@ -78,11 +78,11 @@ def distances_of_scans(
     first, end = (np.searchsorted(rows.scan, numbers, side=side) for side in ('left', 'right'))
     begin, stop = (np.searchsorted(near.scan, numbers, side=side) for side in ('left', 'right'))
     for k in range(scans):
-        present: Ints = targets.id[(targets.first_scan <= k) & (k <= targets.last_scan)]
+        present: Ints = stretches.id[(stretches.first_scan <= k) & (k <= stretches.last_scan)]
         distance = np.full((end[k] - first[k], len(present)), float(cutoff))
         pair = slice(begin[k], stop[k])
-        column = np.searchsorted(present, near.target[pair])
-        there = np.isin(near.target[pair], present)
+        column = np.searchsorted(present, near.contact[pair])
+        there = np.isin(near.contact[pair], present)
         row = near.row[pair][there] - first[k]
         distance[row, column[there]] = near.distance[pair][there]
         yield distance

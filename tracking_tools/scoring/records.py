@@ -68,7 +68,7 @@ def join_rows(parts: Sequence[TrackRows]) -> TrackRows:
 
 @dataclass(frozen=True)
 class Places:
-    """Where one target was at the times asked for."""
+    """Where one contact was at the times asked for."""
 
     position: Floats  # (N, d) [m]
     velocity: Floats  # (N, d) [m/s]
@@ -77,13 +77,13 @@ class Places:
 
 @dataclass(frozen=True)
 class Truth:
-    """Samples of the real trajectories, sorted by target, then time."""
+    """Samples of the real trajectories, sorted by contact, then time."""
 
     id: Ints  # (K,)
     time: Floats  # (K,) [s]
     position: Floats  # (K, d) [m]
     velocity: Floats  # (K, d) [m/s]
-    turning: Bools  # (K,) whether the target manoeuvres there
+    turning: Bools  # (K,) whether the contact manoeuvres there
 
     @staticmethod
     def of(
@@ -94,13 +94,13 @@ class Truth:
         order = np.lexsort((time, ids))
         return Truth(ids[order], time[order], position[order], velocity[order], turning[order])
 
-    def target(self, target: int) -> Truth:
-        """Return the samples of one target."""
-        return take(self, slice(*np.searchsorted(self.id, [target, target + 1])))
+    def of_contact(self, contact: int) -> Truth:
+        """Return the samples of one contact."""
+        return take(self, slice(*np.searchsorted(self.id, [contact, contact + 1])))
 
     def at(self, times: Floats) -> Places:
         """
-        Return where a single target was; beyond its samples it goes straight on.
+        Return where a single contact was; beyond its samples it goes straight on.
 
         Between samples positions follow the cubic through positions and velocities.
         """
@@ -121,8 +121,8 @@ class Truth:
 
 @dataclass(frozen=True)
 class PlotRows:
-    """Plots in the tracking frame with the target that made them, for scoring only."""
+    """Plots in the tracking frame with the contact that made them, for scoring only."""
 
     time: Floats  # (M,) [s]
     position: Floats  # (M, d) [m]
-    contact: Ints  # (M,) id of the target, `FALSE_PLOT` for none
+    contact: Ints  # (M,) id of the contact, `FALSE_PLOT` for none

@@ -13,7 +13,7 @@ from tracking_tools.scoring.accuracy import Accuracy, plot_error, track_error
 from tracking_tools.scoring.continuity import Continuity, continuity
 from tracking_tools.scoring.matching import candidates, match
 from tracking_tools.scoring.records import PlotRows, TrackRows, Truth
-from tracking_tools.scoring.targets import Targets
+from tracking_tools.scoring.stretches import Stretches
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ def score(
     rows: TrackRows,
     truth: Truth,
     plots: PlotRows,
-    targets: Targets,
+    stretches: Stretches,
     radius: float,
     slack: float = 0.0,
     has_velocity: bool = True,
@@ -47,24 +47,24 @@ def score(
     rows : TrackRows
         Confirmed tracks, scan by scan.
     truth : Truth
-        Where the targets were.
+        Where the contacts were.
     plots : PlotRows
         What the tracker got, for comparison.
-    targets : Targets
+    stretches : Stretches
         What ought to be held, and when.
     radius : float
         Match radius [m].
     slack : float
-        For so long beyond its samples a target goes straight on [s].
+        For so long beyond its samples a contact goes straight on [s].
     has_velocity : bool
         Whether the truth tells velocities that can be compared.
 
     """
     matches = match(rows, truth, radius, slack)
     near = np.unique(candidates(rows, truth, radius, slack).track)
-    wanted = take(matches, targets.wanted(matches.target, matches.scan))
+    wanted = take(matches, stretches.wanted(matches.contact, matches.scan))
     return Score(
-        continuity(rows, matches, near, targets),
+        continuity(rows, matches, near, stretches),
         track_error(rows, wanted, has_velocity),
         plot_error(plots, truth),
     )

@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How long does one track stay on a target?"""
+"""How long does one track stay on a contact?"""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ import numpy as np
 
 from tracking_core.batches import Ints
 from tracking_tools.scoring.matching import Matches
-from tracking_tools.scoring.targets import Targets
+from tracking_tools.scoring.stretches import Stretches
 
 NOBODY = -1
 
 
-def holders(matches: Matches, targets: Targets) -> Ints:
+def holders(matches: Matches, stretches: Stretches) -> Ints:
     """
-    Return which track held a target, scan by scan while it was there.
+    Return which track held a contact, scan by scan while it was there.
 
     Parameters
     ----------
     matches : Matches
-        Of one target.
-    targets : Targets
+        Of one contact.
+    stretches : Stretches
         Its stretches, one or more.
 
     Returns
@@ -31,7 +31,10 @@ def holders(matches: Matches, targets: Targets) -> Ints:
 
     """
     scans = np.concatenate(
-        [np.arange(a, b + 1) for a, b in zip(targets.first_scan, targets.last_scan, strict=True)]
+        [
+            np.arange(a, b + 1)
+            for a, b in zip(stretches.first_scan, stretches.last_scan, strict=True)
+        ]
     )
     ids = np.full(len(scans), NOBODY)
     here = np.isin(matches.scan, scans)
@@ -47,7 +50,7 @@ def segment_lengths(ids: Ints) -> Ints:
 
 def relative_tracking_time(ids: Ints) -> float:
     """
-    Return the mean length of unbroken stays over the time that the target was there.
+    Return the mean length of unbroken stays over the time that the contact was there.
 
     One break halves it, however short.
 

@@ -12,7 +12,7 @@ from tracking_core.batches import Floats
 from tracking_core.rows import take
 from tracking_tools.scoring.matching import Matches
 from tracking_tools.scoring.records import TrackRows
-from tracking_tools.scoring.targets import Targets
+from tracking_tools.scoring.stretches import Stretches
 
 NAN = float('nan')
 
@@ -21,24 +21,24 @@ NAN = float('nan')
 class Siap:
     """Shares and means over all scans; every row counts, also one of an older look."""
 
-    completeness: float = NAN  # share of the targets that a track is on
-    ambiguity: float = NAN  # tracks per target that a track is on
-    spuriousness: float = NAN  # share of the tracks that are on no target
+    completeness: float = NAN  # share of the contacts that a track is on
+    ambiguity: float = NAN  # tracks per contact that a track is on
+    spuriousness: float = NAN  # share of the tracks that are on no contact
     position_accuracy: float = NAN  # mean distance [m]
     velocity_accuracy: float = NAN  # the same of the velocity [m/s]
 
 
-def siap(rows: TrackRows, near: Matches, targets: Targets) -> Siap:
+def siap(rows: TrackRows, near: Matches, stretches: Stretches) -> Siap:
     """
-    Judge the picture, every track being on the target that is nearest to it.
+    Judge the picture, every track being on the contact that is nearest to it.
 
     Parameters
     ----------
     rows : TrackRows
         What the tracker said.
     near : Matches
-        All pairs of row and target that may belong together.
-    targets : Targets
+        All pairs of row and contact that may belong together.
+    stretches : Stretches
         What was there.
 
     References
@@ -47,7 +47,7 @@ def siap(rows: TrackRows, near: Matches, targets: Targets) -> Siap:
 
     """
     on = nearest(near)
-    there, held = int(targets.length.sum()), len(np.unique(_pairs(on), axis=0))
+    there, held = int(stretches.length.sum()), len(np.unique(_pairs(on), axis=0))
     speed = np.linalg.norm(rows.velocity[on.row] - on.velocity, axis=1)
     return Siap(
         completeness=held / there if there else NAN,
@@ -59,14 +59,14 @@ def siap(rows: TrackRows, near: Matches, targets: Targets) -> Siap:
 
 
 def nearest(near: Matches) -> Matches:
-    """Return of each row its nearest target only."""
+    """Return of each row its nearest contact only."""
     order = np.lexsort((near.distance, near.row))
     first = np.diff(near.row[order], prepend=-1) != 0
     return take(near, np.sort(order[first]))
 
 
 def _pairs(on: Matches) -> Floats:
-    return np.stack([on.scan, on.target], axis=1)
+    return np.stack([on.scan, on.contact], axis=1)
 
 
 def _mean(values: Floats) -> float:

@@ -12,15 +12,15 @@ from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.rows import take
 from tracking_tools.scoring.records import FALSE_PLOT, Truth
 
-OUT_OF_SIGHT = 2.5  # times its usual interval: a target without samples for so long is away
+OUT_OF_SIGHT = 2.5  # times its usual interval: a contact without samples for so long is away
 
 
 @dataclass(frozen=True)
-class Targets:
+class Stretches:
     """
-    Stretches of scans in which a tracker ought to hold a target.
+    Stretches of scans in which a tracker ought to hold a contact.
 
-    A target that goes away and comes back has a row for each time; rows are sorted by target,
+    A contact that goes away and comes back has a row for each time; rows are sorted by contact,
     then scan.
     """
 
@@ -29,74 +29,74 @@ class Targets:
     last_scan: Ints  # (J,) inclusive
 
     @staticmethod
-    def of_plots(contact: Ints, scan: Ints, nth: int = 4) -> Targets:
+    def of_plots(contact: Ints, scan: Ints, nth: int = 4) -> Stretches:
         """Return those with `nth` plots or more, from their nth plot to the last."""
         ids, first, last = [], [], []
-        for target in np.unique(contact[contact != FALSE_PLOT]):
-            scans = np.sort(scan[contact == target])
+        for one in np.unique(contact[contact != FALSE_PLOT]):
+            scans = np.sort(scan[contact == one])
             if len(scans) >= nth:
-                ids.append(target)
+                ids.append(one)
                 first.append(scans[nth - 1])
                 last.append(scans[-1])
-        return Targets(*(np.array(values, np.int64) for values in (ids, first, last)))
+        return Stretches(*(np.array(values, np.int64) for values in (ids, first, last)))
 
     @staticmethod
-    def of_truth(truth: Truth, starts: Floats) -> Targets:
+    def of_truth(truth: Truth, starts: Floats) -> Stretches:
         """
         Return those that the truth has samples of, as long as it has.
 
         Parameters
         ----------
         truth : Truth
-            All targets. A gap of `OUT_OF_SIGHT` usual intervals of a target is an absence.
+            All contacts. A gap of `OUT_OF_SIGHT` usual intervals of a contact is an absence.
         starts : (K + 1,) array
             When each scan begins, and when the last one ends [s].
 
         """
-        begin, end, ids = stretches(truth)
+        begin, end, ids = spans(truth)
         first = np.searchsorted(starts, begin, side='right') - 1
         last = np.searchsorted(starts, end, side='right') - 1
         seen = (last >= 0) & (first < len(starts) - 1)
         first, last = np.maximum(first, 0)[seen], np.minimum(last, len(starts) - 2)[seen]
         ids = ids[seen]
         if len(ids) == 0:
-            return Targets(ids, first, last)
+            return Stretches(ids, first, last)
         # An absence that no whole scan falls into is none.
         away = (np.diff(ids) != 0) | (first[1:] > last[:-1] + 1)
         begins, ends = np.append(True, away), np.append(away, True)
-        return Targets(ids[begins], first[begins], last[ends])
+        return Stretches(ids[begins], first[begins], last[ends])
 
     @property
     def length(self) -> Ints:
         """How many scans (J,) each stretch has."""
         return self.last_scan - self.first_scan + 1
 
-    def stretch(self, target: Ints, scan: Ints) -> Ints:
-        """Return for pairs of target and scan the row that they are in, -1 for none."""
+    def row_of(self, contact: Ints, scan: Ints) -> Ints:
+        """Return for pairs of contact and scan the row that they are in, -1 for none."""
         if len(self.id) == 0:
-            return np.full(len(target), -1)
+            return np.full(len(contact), -1)
         span = int(max(self.last_scan.max(), scan.max(initial=0))) + 1
         begins = self.id * span + self.first_scan
-        row = np.searchsorted(begins, target * span + scan, side='right') - 1
-        inside = (row >= 0) & (self.id[row] == target) & (scan <= self.last_scan[row])
+        row = np.searchsorted(begins, contact * span + scan, side='right') - 1
+        inside = (row >= 0) & (self.id[row] == contact) & (scan <= self.last_scan[row])
         return np.where(inside, row, -1)
 
-    def wanted(self, target: Ints, scan: Ints) -> Bools:
-        """Return for pairs of target and scan whether the target ought to be held there."""
-        return self.stretch(target, scan) >= 0
+    def wanted(self, contact: Ints, scan: Ints) -> Bools:
+        """Return for pairs of contact and scan whether the contact ought to be held there."""
+        return self.row_of(contact, scan) >= 0
 
-    def of_target(self, target: int) -> Targets:
-        """Return the stretches of one target."""
-        return take(self, self.id == target)
+    def of_contact(self, contact: int) -> Stretches:
+        """Return the stretches of one contact."""
+        return take(self, self.id == contact)
 
 
-def stretches(truth: Truth) -> tuple[Floats, Floats, Ints]:
-    """Return from when to when [s] each target is there without a gap, and its id."""
+def spans(truth: Truth) -> tuple[Floats, Floats, Ints]:
+    """Return from when to when [s] each contact is there without a gap, and its id."""
     if len(truth.id) == 0:
         return np.zeros(0), np.zeros(0), np.zeros(0, np.int64)
     step, same = np.diff(truth.time), np.diff(truth.id) == 0
-    usual = {t: np.median(step[same & (truth.id[1:] == t)]) for t in np.unique(truth.id[1:][same])}
-    longest = OUT_OF_SIGHT * np.array([usual.get(t, np.inf) for t in truth.id[1:]])
+    usual = {c: np.median(step[same & (truth.id[1:] == c)]) for c in np.unique(truth.id[1:][same])}
+    longest = OUT_OF_SIGHT * np.array([usual.get(c, np.inf) for c in truth.id[1:]])
     cut = np.flatnonzero(~same | (step > longest))
     first, last = np.append(0, cut + 1), np.append(cut, len(truth.id) - 1)
     return truth.time[first], truth.time[last], truth.id[first]
