@@ -12,6 +12,7 @@ import numpy as np
 from benchmarks.sonar_recordings import DEGREE, Record
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.linalg import wrap_angle
+from tracking_tools.scoring.continuity import purity
 
 _STAYS = 100.0  # [rad] more than any angle: who was on a contact goes first
 
@@ -35,7 +36,7 @@ class Score:
     heard: float  # share with a mark near the contact
     coverage: float  # share with a confirmed track on the contact
     held: float  # the same, of those with a mark near
-    purity: float  # share of a track's rows that are on its main contact, by rows
+    purity: float  # share of the rows on a contact that are on the main contact of their track
     breaks: int  # a contact got another track than before
     swaps: int  # ... one that was on another contact before
     false_per_hour: float  # confirmed tracks that are on nothing for most of their rows
@@ -91,7 +92,6 @@ def score(record: Record, rows: Sequence[Rows]) -> Score:
             length[number] += 1
     contacts = {i: record.contact[found.id == i] for i in length}
     false = sum(len(contacts[i]) < 0.5 * length[i] for i in length)
-    main = sum(np.bincount(some).max() for some in contacts.values() if len(some))
     breaks, swaps = _changes(record, found.id)
     error = found.error[on] / DEGREE
     told = on & np.isfinite(found.range)
@@ -101,7 +101,7 @@ def score(record: Record, rows: Sequence[Rows]) -> Score:
         heard=_mean(heard[wanted]),
         coverage=_mean(on[wanted]),
         held=_mean(on[wanted & heard]),
-        purity=float(main / max(on.sum(), 1)),
+        purity=purity(found.id[on], record.contact[on]) if on.any() else 0.0,
         breaks=breaks,
         swaps=swaps,
         false_per_hour=false / hours,

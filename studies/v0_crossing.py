@@ -22,6 +22,7 @@ from studies.v0_scenes import DEGREE, marks, truth
 from tracking_core.batches import Floats, Ints
 from tracking_core.config import with_values
 from tracking_core.linalg import wrap_angle
+from tracking_tools.scoring.segments import relative_tracking_time, segment_lengths
 
 SEED = 20190300
 NEAR = 1.0 * DEGREE  # a track further off follows something else
@@ -119,13 +120,8 @@ def runs(name: str, count: int, values: Mapping[str, Any], jobs: int, end: float
 
 def segments(ids: Ints) -> tuple[Floats, Ints]:
     """Return of each contact the mean length of unbroken tracks over the time, and the breaks."""
-    share, breaks = [], []
-    for column in ids.T:
-        edge = np.flatnonzero(np.diff(column, prepend=-2, append=-2))
-        held = column[edge[:-1]] >= 0
-        length = np.diff(edge)[held]
-        share.append(length.mean() / len(column) if len(length) else 0.0)
-        breaks.append(max(int(held.sum()) - 1, 0))
+    share = [relative_tracking_time(column) for column in ids.T]
+    breaks = [max(len(segment_lengths(column)) - 1, 0) for column in ids.T]
     return np.array(share), np.array(breaks)
 
 

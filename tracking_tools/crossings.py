@@ -14,9 +14,10 @@ from msg_adapters.table import Columns
 from tracking_core.batches import Floats
 from tracking_core.linalg import wrap_angle
 from tracking_tools.bearing_scene import BearingScene
+from tracking_tools.evaluation.judging import RADIUS
 from tracking_tools.scene import of_id
 
-CLOSE = float(np.radians(1.5))  # a track so near to a contact may be its own
+CLOSE = RADIUS['sonar']  # a track so near to a contact may be its own
 
 
 @dataclass(frozen=True)

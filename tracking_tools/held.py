@@ -11,12 +11,14 @@ import numpy as np
 from msg_adapters.table import Columns
 from tracking_core.batches import Floats, Ints
 from tracking_core.rows import take
+from tracking_tools.evaluation.judging import RADIUS
+from tracking_tools.evaluation.rows import position_rows
+from tracking_tools.evaluation.truths import positions_of
 from tracking_tools.scene import choose, Scene
-from tracking_tools.scoring import match, Matches, TrackRows, Truth
+from tracking_tools.scoring import match, Matches
+from tracking_tools.scoring.stretches import OUT_OF_SIGHT
 
-RADIUS = 1_000.0  # a track farther off is not the contact's [m]
 START = 3  # looks at a contact before anybody can have a track of it
-OUT_OF_SIGHT = 2.5  # looks that fail to come
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,9 @@ def find_holds(scene: Scene) -> list[Hold]:
     if not scene.has_truth or not len(scene.published.get('id', ())):
         return []
     stamps = np.unique(scene.truth['stamp'])
-    matches = match(_rows(scene.published, stamps), _truth(scene.truth), RADIUS)
+    told = choose(scene.published, np.isin(scene.published['stamp'], stamps))
+    truth = positions_of(scene.truth, turning=np.inf)
+    matches = match(position_rows(told, stamps, 3), truth, RADIUS['radar'])
     return [
         _hold(contact, scene.truth, stamps, matches) for contact in np.unique(scene.truth['id'])
     ]
@@ -72,24 +76,3 @@ def _returns(time: Floats) -> Floats:
     """Return when a contact that was seen at these times (M,) came back into sight."""
     gaps = np.diff(time, prepend=time[0])
     return time[gaps > OUT_OF_SIGHT * np.median(gaps)]
-
-
-def _rows(table: Columns, stamps: Floats) -> TrackRows:
-    rows = choose(table, np.isin(table['stamp'], stamps))
-    return TrackRows(
-        scan=np.searchsorted(stamps, rows['stamp']),
-        id=rows['id'].astype(np.int64),
-        time=rows['time'],
-        position=_vectors(rows, 'x', 'y', 'z'),
-        velocity=_vectors(rows, 'vx', 'vy', 'vz'),
-        covariance=rows['covariance'].reshape(-1, 6, 6),
-    )
-
-
-def _truth(truth: Columns) -> Truth:
-    place, velocity = _vectors(truth, 'x', 'y', 'z'), _vectors(truth, 'vx', 'vy', 'vz')
-    return Truth.of(truth['id'].astype(np.int64), truth['time'], place, velocity)
-
-
-def _vectors(rows: Columns, *names: str) -> Floats:
-    return np.stack([rows[name] for name in names], axis=1).astype(np.float64)

@@ -78,7 +78,7 @@ def judge(recorded: Recorded, yardstick: Yardstick) -> Judgement:
     wide = candidates(rows, truth, max(radius, cutoff), slack)
     close = take(wide, wide.distance <= radius)
     near = take(close, stretches.wanted(close.contact, close.scan))
-    matches = choose_pairs(near, radius) if len(near) else near
+    matches = choose_pairs(near, radius)
     contacts = judge_contacts(recorded, matches, stretches)
     far = take(wide, wide.distance <= cutoff)
     gospas, ospas = _sets(recorded, far, stretches, cutoff, yardstick)

@@ -41,7 +41,7 @@ def _judge(recorded: Recorded, matches: Matches, near: Matches) -> Iterator[Trac
             end=float(time.max() - start),
             rows=int(own.sum()),
             matched=len(mine) / int(own.sum()),
-            purity=purity(mine),
+            purity=purity(mine.track, mine.contact),
             rmse=error.rmse,
             nees_position=error.nees_position,
             nis=float(squares.mean() / recorded.plot_size) if len(squares) else NAN,

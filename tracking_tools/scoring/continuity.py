@@ -71,7 +71,7 @@ def continuity(
         breaks=find_changes(wanted, stretches).breaks,
         ghosts=int(ghosts.sum()),
         tracks=len(ids),
-        purity=purity(matches),
+        purity=purity(matches.track, matches.contact),
         latency=_latency(wanted, stretches),
         returns=changes.returns,
         lasting_switches=_lasting(matches, stretches),
@@ -111,13 +111,11 @@ def _lasting(matches: Matches, stretches: Stretches) -> int:
     return count
 
 
-def purity(matches: Matches) -> float:
-    """Return which share of the matched rows is on the main contact of its track."""
-    if len(matches) == 0:
+def purity(track: Ints, contact: Ints) -> float:
+    """Return which share of these pairs (K,) has the main contact of its track; NaN for none."""
+    if len(track) == 0:
         return float('nan')
-    pairs, count = np.unique(
-        np.stack([matches.track, matches.contact]), axis=1, return_counts=True
-    )
+    pairs, count = np.unique(np.stack([track, contact]), axis=1, return_counts=True)
     tracks, number = np.unique(pairs[0], return_inverse=True)
     most = np.zeros(len(tracks), np.int64)
     np.maximum.at(most, number, count)

@@ -11,7 +11,7 @@ import numpy as np
 from tracking_core.rows import take
 from tracking_tools.scoring.accuracy import Accuracy, plot_error, track_error
 from tracking_tools.scoring.continuity import Continuity, continuity
-from tracking_tools.scoring.matching import candidates, match
+from tracking_tools.scoring.matching import candidates, choose_pairs
 from tracking_tools.scoring.records import PlotRows, TrackRows, Truth
 from tracking_tools.scoring.stretches import Stretches
 
@@ -60,11 +60,11 @@ def score(
         Whether the truth tells velocities that can be compared.
 
     """
-    matches = match(rows, truth, radius, slack)
-    near = np.unique(candidates(rows, truth, radius, slack).track)
+    near = candidates(rows, truth, radius, slack)
+    matches = choose_pairs(near, radius)
     wanted = take(matches, stretches.wanted(matches.contact, matches.scan))
     return Score(
-        continuity(rows, matches, near, stretches),
+        continuity(rows, matches, np.unique(near.track), stretches),
         track_error(rows, wanted, has_velocity),
         plot_error(plots, truth),
     )
