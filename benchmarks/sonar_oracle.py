@@ -60,7 +60,7 @@ def track(record: Record, angle: float) -> list[Rows]:
     values = {**preset('direction_finder'), 'ranging.enabled': False}
     tracker, rows = SonarTracker(with_values(SonarTrackerConfig(), values)), []
     oracle = Oracle(tracker.config.association)
-    tracker._tracker.setup = replace(tracker._tracker.setup, associate=oracle)
+    tracker.core.setup = replace(tracker.core.setup, associate=oracle)
     for cycle, message in enumerate(record.cycles):
         here = np.flatnonzero(record.scan == cycle)
         contact, bearing = record.contact[here], record.bearing[here]
