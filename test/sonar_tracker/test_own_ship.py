@@ -91,3 +91,21 @@ def test_gates_allow_for_the_doubt_of_the_heading():
             misses.append(tracks.misses[tracks.confirmed] > 0)
     assert tracks.confirmed.sum() == 4
     assert np.concatenate(misses).mean() < 0.03
+
+
+def test_a_sonar_beside_the_keel_is_where_the_turned_ship_has_it():
+    """10 m ahead and 3 m to port of own ship's origin, which heads 0.05 rad/s times 9.5 s."""
+    config = with_values(SonarTrackerConfig(), {'sensor.mount.x': 10.0, 'sensor.mount.y': 3.0})
+    sonar, yaw = SonarTracker(config), RATE * 9.5
+    sonar.track(Bearings.of(np.full(1, 9.5), np.zeros(1)), turning(yaw_variance=0.0))
+    x, y = 10.0 * np.cos(yaw) - 3.0 * np.sin(yaw), 10.0 * np.sin(yaw) + 3.0 * np.cos(yaw)
+    np.testing.assert_allclose(sonar.sensor_position, (x, y, 0.0), atol=1e-12)
+
+
+def test_gates_are_for_marks_as_sure_as_they_say_and_for_the_heading():
+    """Expected of the next mark: the median of the told variances, and that of the heading."""
+    sonar = SonarTracker(SonarTrackerConfig())
+    marks = Bearings.of(np.full(3, 9.0), np.zeros(3), bearing_sd=np.array([0.01, 0.02, 0.05]))
+    sonar.track(marks, turning(yaw_variance=0.03**2))
+    expected = sonar.core.setup.sensor.noise(np.zeros((1, 1)), sonar.coverage)
+    np.testing.assert_allclose(expected, [[[0.02**2 + 0.03**2]]], rtol=1e-9)
