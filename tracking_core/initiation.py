@@ -67,6 +67,7 @@ def two_point(
     least_existence: float,
     config: InitiationConfig,
     is_angular: bool = False,
+    follow_faint: bool = True,
 ) -> Starts:
     """
     Start a track on every pair of an older and a fresh plot that keeps the speed limit.
@@ -90,6 +91,8 @@ def two_point(
         Speed limits.
     is_angular : bool
         Plots are angles.
+    follow_faint : bool
+        In dense clutter, start fainter tracks than `least_existence`, too.
 
     Returns
     -------
@@ -99,7 +102,7 @@ def two_point(
     """
     odds = Odds(density, detection_probability, config)
     alone = odds.at_best(seeds, interval)
-    leniency = odds.leniency(alone, seeds.free, least_existence)
+    leniency = odds.leniency(alone, seeds.free, least_existence) if follow_faint else 1.0
     most, least = MOST_NEW * seeds.free, least_existence / leniency
     seeds = take(seeds, most * alone >= least * (1.0 - most + most * alone))
 

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -20,6 +20,8 @@ _OUTSIDE_LOOKS = 5  # looks outside the coverage after which a track has left
 
 class Lifecycle(Protocol):
     """What a tracker asks about the life of its tracks."""
+
+    weighs: ClassVar[bool]  # a faint track is confirmed only once its plots outweigh the clutter
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
@@ -55,6 +57,7 @@ class Existence:
     """
 
     config: ExistenceConfig
+    weighs: ClassVar[bool] = True
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
@@ -79,6 +82,7 @@ class MOfN:
     """Confirmed by M plots in N looks; deleted when that can no longer come, or after misses."""
 
     config: MOfNConfig
+    weighs: ClassVar[bool] = False
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return 1 (T,): counting knows no doubt."""
@@ -107,6 +111,7 @@ class ErrorRatio:
     """
 
     config: ErrorRatioConfig
+    weighs: ClassVar[bool] = False
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return 1 (T,): counting knows no doubt."""

@@ -17,7 +17,9 @@ from tracking_core.config import with_values
 INTERVAL, RANGE, SD = 4.0, 50e3, 80.0  # [s], [m], [m]
 
 
-def held(false_plots: float, looks: int = 25, seed: int = 1) -> tuple[np.ndarray, int, int]:
+def held(
+    false_plots: float, looks: int = 25, seed: int = 1, **values: str
+) -> tuple[np.ndarray, int, int]:
     """Return which contacts (4,) have a track at the end, false tracks, and most tracks ever."""
     rng = np.random.default_rng(seed)
     tracker = RadarTracker(
@@ -29,6 +31,7 @@ def held(false_plots: float, looks: int = 25, seed: int = 1) -> tuple[np.ndarray
                 'sensor.detection_probability': 0.9,
                 'sensor.range_max': RANGE,
                 'clutter_density': false_plots / (np.pi * RANGE**2),
+                **values,
             },
         )
     )
@@ -63,3 +66,10 @@ def test_dense_clutter_stays_affordable() -> None:
     _, false, most = held(3000.0, looks=8)
     assert false == 0
     assert most < 600
+
+
+def test_counting_plots_confirms_no_clutter_there() -> None:
+    """M of N knows nothing of clutter: faint tracks would nearly all be confirmed."""
+    _, false, most = held(300.0, looks=8, lifecycle='m_of_n')
+    assert false == 0
+    assert most < 30
