@@ -64,7 +64,7 @@ def start_tracks(
         starts = two_point(
             state.seeds, fresh, density, scan.coverage, interval,
             setup.sensor.detection_probability, setup.least_existence, setup.initiation,
-            setup.sensor.is_angular, setup.lifecycle.weighs,
+            setup.sensor.is_angular, setup.lifecycle.follows_faint,
         )  # fmt: skip
         starts = with_speed_prior(starts, setup.initiation.speed_sd)
         starts = one_a_plot(starts, len(fresh))

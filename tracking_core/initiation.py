@@ -67,7 +67,7 @@ def two_point(
     least_existence: float,
     config: InitiationConfig,
     is_angular: bool = False,
-    follow_faint: bool = True,
+    follows_faint: bool = True,
 ) -> Starts:
     """
     Start a track on every pair of an older and a fresh plot that keeps the speed limit.
@@ -91,7 +91,7 @@ def two_point(
         Speed limits.
     is_angular : bool
         Plots are angles.
-    follow_faint : bool
+    follows_faint : bool
         In dense clutter, start fainter tracks than `least_existence`, too.
 
     Returns
@@ -102,7 +102,7 @@ def two_point(
     """
     odds = Odds(density, detection_probability, config)
     alone = odds.at_best(seeds, interval)
-    leniency = odds.leniency(alone, seeds.free, least_existence) if follow_faint else 1.0
+    leniency = odds.leniency(alone, seeds.free, least_existence) if follows_faint else 1.0
     most, least = MOST_NEW * seeds.free, least_existence / leniency
     seeds = take(seeds, most * alone >= least * (1.0 - most + most * alone))
 
@@ -126,13 +126,11 @@ def two_point(
 
 
 def _worth_a_track(existence: Floats, least: float, leniency: float, coverage: Coverage) -> Ints:
-    """Return the pairs (K,) that are likely enough; of the faint ones, not too many in a turn."""
+    """Return the pairs (K,) that are likely enough; of the faint ones, not too many in a look."""
     keep = existence >= least
-    if leniency > 1.0:
-        faint = ((existence >= least / leniency) & ~keep).nonzero()[0]
-        turn = min(abs(coverage.sweep) / (2.0 * np.pi), 1.0) if coverage.sweep else 1.0
-        most = math.ceil(_MOST_FAINT * turn)
-        keep[faint[np.argsort(-existence[faint], kind='stable')[:most]]] = True
+    faint = ((existence >= least / leniency) & ~keep).nonzero()[0]
+    most = math.ceil(_MOST_FAINT * coverage.part_of_look)
+    keep[faint[np.argsort(-existence[faint], kind='stable')[:most]]] = True
     return keep.nonzero()[0]
 
 

@@ -21,7 +21,7 @@ _OUTSIDE_LOOKS = 5  # looks outside the coverage after which a track has left
 class Lifecycle(Protocol):
     """What a tracker asks about the life of its tracks."""
 
-    weighs: ClassVar[bool]  # a faint track is confirmed only once its plots outweigh the clutter
+    follows_faint: ClassVar[bool]  # plots are weighed against clutter, so a faint track is no risk
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
@@ -57,7 +57,7 @@ class Existence:
     """
 
     config: ExistenceConfig
-    weighs: ClassVar[bool] = True
+    follows_faint: ClassVar[bool] = True
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
@@ -73,8 +73,7 @@ class Existence:
     ) -> tuple[Bools, Bools]:
         """Return which tracks (T,) are confirmed and which are to be deleted."""
         confirmed = tracks.confirmed | (existence >= self.config.confirm)
-        eased = 1.0 if leniency == 1.0 else np.where(confirmed, 1.0, leniency)
-        return confirmed, existence * eased < self.config.drop
+        return confirmed, existence * np.where(confirmed, 1.0, leniency) < self.config.drop
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class MOfN:
     """Confirmed by M plots in N looks; deleted when that can no longer come, or after misses."""
 
     config: MOfNConfig
-    weighs: ClassVar[bool] = False
+    follows_faint: ClassVar[bool] = False
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return 1 (T,): counting knows no doubt."""
@@ -111,7 +110,7 @@ class ErrorRatio:
     """
 
     config: ErrorRatioConfig
-    weighs: ClassVar[bool] = False
+    follows_faint: ClassVar[bool] = False
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return 1 (T,): counting knows no doubt."""

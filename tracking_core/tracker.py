@@ -177,10 +177,9 @@ class Tracker:
     def _clutter(self, state: State, scan: Scan, seen: Look, used: float) -> tuple[float, float]:
         """Return the estimate of the clutter density, and from how many looks it is."""
         unexplained = float((1.0 - seen.claimed[~seen.waiting]).clip(0.0).sum()) - used
-        sweep = abs(scan.coverage.sweep)
         return estimate_density(
             state.clutter_density, state.clutter_looks, max(unexplained, 0.0), scan.volume,
-            min(sweep / FULL_TURN, 1.0) if sweep else 1.0,
+            scan.coverage.part_of_look,
         )  # fmt: skip
 
 
