@@ -13,6 +13,7 @@ from msg_adapters.frames import TrackingFrame
 from msg_adapters.reading import Reading
 from tracking_core.batches import Floats, State, Tracks
 from tracking_core.platform import Platform
+from tracking_core.space import Space
 
 
 class Tracker(Protocol):
@@ -36,8 +37,8 @@ class Tracker(Protocol):
         """Return the time of one turn of the antenna [s], 0 if it is not known to turn."""
 
     @property
-    def dimensions(self) -> int:
-        """Return how many coordinates a plot has; one: the bearing."""
+    def space(self) -> Space:
+        """Return where plots and tracks are: points or angles."""
 
     @property
     def is_ready(self) -> bool:

@@ -68,4 +68,4 @@ class Follower:
             tracker.restore(now)
             self.history = history
             raise
-        tracker.state = keep_ids(before, tracker.state, first, tracker.dimensions == 1)
+        tracker.state = keep_ids(before, tracker.state, first, tracker.space)

@@ -16,6 +16,7 @@ from radar_tracker.told import excess, NOTHING, tell_noise
 from tracking_core.batches import Coverage, Floats, Plots, Scan
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
+from tracking_core.space import POINTS, Space
 
 _LEAST_DEPTH = 1.0  # m, of plot space: the only plot so far may lie at `range_min`
 
@@ -38,9 +39,9 @@ class Radar:
         return Radar(config, dimensions, is_polar)
 
     @property
-    def is_angular(self) -> bool:
-        """False: plots are points."""
-        return False
+    def space(self) -> Space:
+        """Plots are points."""
+        return POINTS
 
     @property
     def detection_probability(self) -> float:

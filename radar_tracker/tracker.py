@@ -21,6 +21,7 @@ from radar_tracker.sensor import Radar
 from radar_tracker.turns import Turns
 from tracking_core.batches import Coverage, Floats, Plots, State, Tracks
 from tracking_core.platform import Platform, pose_at
+from tracking_core.space import Space
 from tracking_core.tracker import Tracker
 
 
@@ -87,9 +88,9 @@ class RadarTracker:
         return self.core.tracks
 
     @property
-    def dimensions(self) -> int:
-        """2 or 3, as configured or as the first plots told."""
-        return self.radar.dimensions
+    def space(self) -> Space:
+        """Plots are points."""
+        return self.radar.space
 
     @property
     def is_ready(self) -> bool:
@@ -103,7 +104,7 @@ class RadarTracker:
 
     def plot_noise(self, position: Floats) -> Floats:
         """Return the covariance (K, d, d) [m^2] of a plot at each of these places (K, 3) [m]."""
-        return self.radar.noise(position[:, : self.dimensions], self.coverage)
+        return self.radar.noise(position[:, : self.radar.dimensions], self.coverage)
 
     def reset(self) -> None:
         """Forget all but the next id, as after a restart."""
@@ -117,8 +118,9 @@ class RadarTracker:
 
     def start_track(self, position: Floats, time: float) -> int:
         """Start a confirmed track at a position (2,) or (3,) [m] at a time [s]; return its id."""
-        full = np.zeros(self.dimensions)
-        full[: min(len(position), self.dimensions)] = position[: self.dimensions]
+        d = self.radar.dimensions
+        full = np.zeros(d)
+        full[: min(len(position), d)] = position[:d]
         return self.core.acquire(full, time, self.coverage)
 
     def drop_track(self, track_id: int) -> bool:
@@ -175,7 +177,7 @@ class RadarTracker:
             if self.is_ready and len(self.tracks):  # ordered ones, of these dimensions
                 tracker.state = self.state
             self.core, self.is_known = tracker, True
-        self._see(farthest(plots, self.radar.is_polar, self.dimensions))
+        self._see(farthest(plots, self.radar.is_polar, self.radar.dimensions))
 
     def _see(self, distance: float) -> None:
         """

@@ -12,6 +12,7 @@ from sonar_tracker.config import SensorConfig
 from tracking_core.batches import Bearings, Coverage, Floats, Scan
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import PlatformPose
+from tracking_core.space import ANGLES, Space
 
 _LEAST_SINE = 0.05  # a linear array hears nothing of use nearer to its axis than 3 degrees
 
@@ -30,9 +31,9 @@ class Sonar:
         return 1
 
     @property
-    def is_angular(self) -> bool:
-        """True: bearings come again every turn."""
-        return True
+    def space(self) -> Space:
+        """Bearings are angles."""
+        return ANGLES
 
     @property
     def detection_probability(self) -> float:

@@ -18,6 +18,7 @@ from tracking_core.batches import Bearings, Coverage, Floats, State, Tracks
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, PlatformPose, pose_at
 from tracking_core.rows import take
+from tracking_core.space import Space
 from tracking_core.tracker import Tracker
 
 
@@ -88,9 +89,9 @@ class SonarTracker:
         return self.core.tracks
 
     @property
-    def dimensions(self) -> int:
-        """One: the bearing."""
-        return 1
+    def space(self) -> Space:
+        """Bearings are angles."""
+        return self.sonar.space
 
     @property
     def is_ready(self) -> bool:

@@ -64,7 +64,7 @@ def start_tracks(
         starts = two_point(
             state.seeds, fresh, density, scan.coverage, interval,
             setup.sensor.detection_probability, setup.least_existence, setup.initiation,
-            setup.sensor.is_angular, setup.lifecycle.follows_faint,
+            setup.sensor.space, setup.lifecycle.follows_faint,
         )  # fmt: skip
         starts = with_speed_prior(starts, setup.initiation.speed_sd)
         starts = one_a_plot(starts, len(fresh))
@@ -83,9 +83,7 @@ def _hidden(scan: Scan, seen: Look, setup: Setup, resolution: Resolution) -> Boo
     """Return which plots (M,) a contact near a known one, which has its own plot, cannot make."""
     known = take(seen.tracks, seen.passed & seen.tracks.confirmed & (seen.tracks.misses == 0))
     places = places_of(setup.planes, known.planes, setup.sensor.dimensions)
-    return within_limit(
-        places.mean, scan.position, scan.coverage, resolution, setup.sensor.is_angular
-    )
+    return within_limit(places.mean, scan.position, scan.coverage, resolution)
 
 
 def with_speed_prior(starts: Starts, sd: float) -> Starts:

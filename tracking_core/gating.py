@@ -15,13 +15,14 @@ from tracking_core.linalg import wrap_angle
 
 _FEW = 3_000  # track-plot combinations that are all compared sooner than sorted
 _MANY = 500_000  # ... for which the cells are worth their price
+MOST_PAIRS = 5_000_000  # that are looked at
 _AT_ONCE = 2**14  # candidates whose arrays stay near the processor
 _SAMPLED = 64  # boxes that tell the usual size
 _MOST_CELLS, _CELLS_PER_PLOT = 2**16, 8  # of the grid: what 16 bits number, and not too many
 
 
 def box_pairs(
-    centre: Floats, half_size: Floats, plots: Floats, most: int = 5_000_000
+    centre: Floats, half_size: Floats, plots: Floats, most: int = MOST_PAIRS
 ) -> tuple[Ints, Ints]:
     """
     Find all plots inside axis-parallel boxes around the tracks.
@@ -118,7 +119,7 @@ def _sweep(centre: Floats, half_size: Floats, plots: Floats) -> _Runs:
 
 
 def sector_pairs(
-    centre: Floats, half_size: Floats, plots: Floats, most: int = 5_000_000
+    centre: Floats, half_size: Floats, plots: Floats, most: int = MOST_PAIRS
 ) -> tuple[Ints, Ints]:
     """Do the same for angles (T, 1) and (M, 1), which come again every turn [rad]."""
     M = len(plots)

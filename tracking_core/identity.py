@@ -10,13 +10,13 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from tracking_core.batches import Floats, Ints, State, Tracks
-from tracking_core.linalg import wrap_angle
 from tracking_core.rows import take
+from tracking_core.space import POINTS, Space
 
 _SAME = 9.0  # mean square difference of two states of one contact, in units of their variances
 
 
-def keep_ids(before: State, after: State, first: int, is_angular: bool = False) -> State:
+def keep_ids(before: State, after: State, first: int, space: Space = POINTS) -> State:
     """
     Give tracks the ids that they had before; new ones get ids that nobody ever had.
 
@@ -28,8 +28,8 @@ def keep_ids(before: State, after: State, first: int, is_angular: bool = False) 
         The same scans followed again, from a state in which `first` was the next id.
     first : int
         Tracks with lower ids began earlier, and are the same in both.
-    is_angular : bool
-        The first coordinate of a state is an angle.
+    space : Space
+        Where the tracks are.
 
     Returns
     -------
@@ -39,7 +39,7 @@ def keep_ids(before: State, after: State, first: int, is_angular: bool = False) 
     """
     old = np.flatnonzero(before.tracks.id >= first)
     new = np.flatnonzero(after.tracks.id >= first)
-    apart = _difference(before.tracks, old, after.tracks, new, is_angular)
+    apart = _difference(before.tracks, old, after.tracks, new, space)
     difference = np.minimum(apart, _SAME)
     one, other = linear_sum_assignment(difference)
     same = difference[one, other] < _SAME
@@ -56,15 +56,13 @@ def keep_ids(before: State, after: State, first: int, is_angular: bool = False) 
     )
 
 
-def _difference(a: Tracks, rows: Ints, b: Tracks, columns: Ints, is_angular: bool) -> Floats:
+def _difference(a: Tracks, rows: Ints, b: Tracks, columns: Ints, space: Space) -> Floats:
     """Return the mean square difference (R, C) of the states, in units of their variances."""
     total, size = np.zeros((len(rows), len(columns))), 0
     for one, other in zip(a.planes, b.planes, strict=True):
         (m, P), (n, Q) = one.moments(), other.moments()
         variance = np.einsum('tnn->tn', P)[rows, None] + np.einsum('tnn->tn', Q)[None, columns]
-        apart = m[rows, None] - n[None, columns]
-        if is_angular:
-            apart[..., 0] = wrap_angle(apart[..., 0])
+        apart = space.shortest(m[rows, None] - n[None, columns])
         total += (apart**2 / variance).sum(axis=2)
         size += m.shape[1]
     return total / max(size, 1)

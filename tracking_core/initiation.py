@@ -11,12 +11,11 @@ import numpy as np
 
 from tracking_core.batches import Coverage, Floats, Ints, Seeds
 from tracking_core.composition import Density
-from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import InitiationConfig
-from tracking_core.linalg import wrap_angle
 from tracking_core.looks import longest_since
 from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_covariance
 from tracking_core.rows import change, take, take_rows
+from tracking_core.space import POINTS, Space
 
 _MOST_PAIRS = 1_000_000  # of plots looked at; the last seeds go without
 _MOST_FAINT = 30  # starts of a look that are less likely than usual
@@ -66,7 +65,7 @@ def two_point(
     detection_probability: float,
     least_existence: float,
     config: InitiationConfig,
-    is_angular: bool = False,
+    space: Space = POINTS,
     follows_faint: bool = True,
 ) -> Starts:
     """
@@ -89,8 +88,8 @@ def two_point(
         plots of a contact seldom are, the likeliest of the fainter pairs are, too.
     config : InitiationConfig
         Speed limits.
-    is_angular : bool
-        Plots are angles.
+    space : Space
+        Where the plots are.
     follows_faint : bool
         In dense clutter, start fainter tracks than `least_existence`, too.
 
@@ -106,7 +105,7 @@ def two_point(
     most, least = MOST_NEW * seeds.free, least_existence / leniency
     seeds = take(seeds, most * alone >= least * (1.0 - most + most * alone))
 
-    old, new, step, dt = _within_reach(seeds, fresh, coverage, 0.5 * interval, config, is_angular)
+    old, new, step, dt = _within_reach(seeds, fresh, coverage, 0.5 * interval, config, space)
     if len(old) == 0:
         return change(Starts.none(step.shape[1]), leniency=leniency)
     looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
@@ -136,7 +135,7 @@ def _worth_a_track(existence: Floats, least: float, leniency: float, coverage: C
 
 def _within_reach(
     seeds: Seeds, fresh: Seeds, coverage: Coverage, shortest: float, config: InitiationConfig,
-    is_angular: bool,
+    space: Space,
 ) -> tuple[Ints, Ints, Floats, Floats]:  # fmt: skip
     """Return the rows (K,), (K,) of pairs, how far (K, d) they are apart and how long (K,) [s]."""
     d = seeds.position.shape[1]
@@ -145,12 +144,10 @@ def _within_reach(
     longest = longest_since(seeds.time, fresh.time.max(), coverage)
     variances = [plots.covariance.diagonal(0, 1, 2) for plots in (seeds, fresh)]
     noise = _NOISE_SIGMAS * np.sqrt(variances[0] + variances[1].max(axis=0))
-    find = sector_pairs if is_angular else box_pairs
     reach = (limits(d, config)[:, None] * longest).T + noise
-    old, new = find(seeds.position, reach, fresh.position, _MOST_PAIRS)
+    old, new = space.find_pairs(seeds.position, reach, fresh.position, _MOST_PAIRS)
     dt = fresh.time[new] - seeds.time[old]
-    step = take_rows(fresh.position, new) - take_rows(seeds.position, old)
-    step = wrap_angle(step) if is_angular else step
+    step = space.shortest(take_rows(fresh.position, new) - take_rows(seeds.position, old))
     noise = _NOISE_SIGMAS * np.sqrt(take_rows(variances[0], old) + take_rows(variances[1], new))
     slack = np.maximum(np.abs(step) - noise, 0.0)
     level = slack[:, 0] if d == 1 else np.hypot(slack[:, 0], slack[:, 1])

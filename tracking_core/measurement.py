@@ -7,12 +7,11 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Floats, Measurement, Pairs, Scan
-from tracking_core.linalg import nearest_turn
 from tracking_core.rows import take_rows
 
 
 def of_plane(
-    coordinates: tuple[int, ...], pairs: Pairs, scan: Scan, near: Floats | None = None
+    coordinates: tuple[int, ...], pairs: Pairs, scan: Scan, position: Floats
 ) -> Measurement:
     """
     Measure the position of a plane, z = position + velocity times lag.
@@ -28,8 +27,8 @@ def of_plane(
         P pairs.
     scan : Scan
         Plots; a coordinate that is NaN is absent.
-    near : (P, d) array, optional
-        For plots that are angles: where they are expected, to within half a turn [rad].
+    position : (P, d) array
+        Of the plots; angles within half a turn of where they are expected.
 
     Returns
     -------
@@ -37,16 +36,17 @@ def of_plane(
         Absent components have a row of zeros, value 0 and variance 1.
 
     """
-    d = len(coordinates)
     part = slice(coordinates[0], coordinates[-1] + 1)
-    value = take_rows(scan.position[:, part], pairs.plot)
-    if near is not None:
-        value = nearest_turn(value, near[:, part])
     covariance = take_rows(scan.covariance[:, part, part], pairs.plot)
-    matrix = np.zeros((len(pairs), d, 2 * d), order='F')
+    return without_absent(position[:, part], after(pairs.lag, len(coordinates)), covariance)
+
+
+def after(lag: Floats, d: int) -> Floats:
+    """Return H (P, d, 2 d) that moves d coordinates over these times (P,) [s]."""
+    matrix = np.zeros((len(lag), d, 2 * d), order='F')
     for axis in range(d):
-        matrix[:, axis, 2 * axis], matrix[:, axis, 2 * axis + 1] = 1.0, pairs.lag
-    return without_absent(value, matrix, covariance)
+        matrix[:, axis, 2 * axis], matrix[:, axis, 2 * axis + 1] = 1.0, lag
+    return matrix
 
 
 def with_range_rate(

@@ -7,10 +7,10 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints, Tracks
-from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.lifecycle_config import MergeConfig
-from tracking_core.linalg import inverse, wrap_angle
+from tracking_core.linalg import inverse
 from tracking_core.rows import change, take_rows
+from tracking_core.space import POINTS, Space
 
 _SHARE = 1.0 / 3.0  # of its plots; a true double is one soon after its start
 
@@ -19,7 +19,7 @@ def end_doubles(
     tracks: Tracks,
     passed: Bools,
     config: MergeConfig,
-    is_angular: bool = False,
+    space: Space = POINTS,
     is_unresolved: bool = False,
 ) -> tuple[Tracks, Bools]:
     """
@@ -38,20 +38,20 @@ def end_doubles(
         Looked at in this scan.
     config : MergeConfig
         What counts as near, and how long.
-    is_angular : bool
-        Positions are angles.
+    space : Space
+        Where the tracks are.
     is_unresolved : bool
         Contacts may have plots in common.
 
     """
-    near = duplicates(tracks, config.distance, is_angular)
+    near = duplicates(tracks, config.distance, space)
     looks = np.where(near, tracks.doubled + 1, 0)
     tracks = change(tracks, doubled=np.where(passed, looks, tracks.doubled))
     patience = np.maximum(config.looks, _SHARE * tracks.hits if is_unresolved else 0)
     return tracks, near & (~tracks.confirmed | (tracks.doubled >= patience))
 
 
-def duplicates(tracks: Tracks, distance: float, is_angular: bool = False) -> Bools:
+def duplicates(tracks: Tracks, distance: float, space: Space = POINTS) -> Bools:
     """
     Return which tracks (T,) are second ones on a contact that an older or surer track follows.
 
@@ -62,13 +62,13 @@ def duplicates(tracks: Tracks, distance: float, is_angular: bool = False) -> Boo
     lost = np.zeros(T, bool)
     if distance == 0.0 or T < 2:
         return lost
-    moments = [_compared(*plane.moments(), is_angular) for plane in tracks.planes]
+    moments = [space.comparable(*plane.moments()) for plane in tracks.planes]
     mean, covariance = moments[0]
     position = mean[:, 0::2]
     sd = np.sqrt(covariance.diagonal(0, 1, 2)[:, 0::2])
     # Each looks as far as the pair may be apart if it is the vaguer one of the two.
-    find = sector_pairs if is_angular else box_pairs
-    one, other = find(position, np.sqrt(2.0 * mean.shape[1]) * distance * sd, position)
+    reach = np.sqrt(2.0 * mean.shape[1]) * distance * sd
+    one, other = space.find_pairs(position, reach, position)
     apart = one != other
     first, second = np.minimum(one, other)[apart], np.maximum(one, other)[apart]
     for part in (slice(0, None, 2), slice(None)):  # places are no farther apart than states
@@ -76,7 +76,7 @@ def duplicates(tracks: Tracks, distance: float, is_angular: bool = False) -> Boo
             if len(first) == 0:
                 return lost
             dt = tracks.time[second] - tracks.time[first]
-            distances = _distance_squared(m, P, first, second, dt, is_angular, part)
+            distances = _distance_squared(m, P, first, second, dt, space, part)
             near = distances <= distance**2 * m.shape[1]
             first, second = first[near], second[near]
     rank = _rank(tracks)
@@ -84,19 +84,13 @@ def duplicates(tracks: Tracks, distance: float, is_angular: bool = False) -> Boo
     return lost
 
 
-def _compared(mean: Floats, covariance: Floats, is_angular: bool) -> tuple[Floats, Floats]:
-    return (mean[:, :2], covariance[:, :2, :2]) if is_angular else (mean, covariance)
-
-
 def _distance_squared(
-    mean: Floats, P: Floats, first: Ints, second: Ints, dt: Floats, is_angular: bool, part: slice
+    mean: Floats, P: Floats, first: Ints, second: Ints, dt: Floats, space: Space, part: slice
 ) -> Floats:
     """Return the squared distance of this part of track pairs, at the time of the later one."""
     delta = take_rows(mean, second) - take_rows(mean, first)
     delta[:, 0::2] -= take_rows(mean[:, 1::2], first) * dt[:, None]
-    if is_angular:
-        delta[:, 0::2] = wrap_angle(delta[:, 0::2])
-    delta, P = delta[:, part], P[:, part, part]
+    delta, P = space.shortest(delta)[:, part], P[:, part, part]
     total = take_rows(P, first) + take_rows(P, second)
     return np.asarray(np.einsum('ki,kij,kj->k', delta, inverse(total)[0], delta))
 

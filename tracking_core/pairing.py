@@ -14,11 +14,11 @@ from tracking_core import measurement
 from tracking_core.batches import Floats, Innovations, Ints, Mixture, Pairs, Scan
 from tracking_core.chances import chi_square_bound
 from tracking_core.composition import Plane
-from tracking_core.gating import box_pairs, sector_pairs
 from tracking_core.kalman import mixture_log_likelihood
 from tracking_core.linalg import determinant, over_modes
 from tracking_core.rows import take, take_rows
 from tracking_core.sensing import Sensor
+from tracking_core.space import Space
 
 _UNIT_BALL = {1: 2.0, 2: np.pi, 3: 4.0 * np.pi / 3.0}
 _BOX_MARGIN = 1.05  # the noise at the plot may exceed the noise at the prediction
@@ -112,7 +112,7 @@ def pair(
     longest_lag: Floats,
     scan: Scan,
     bounds: Floats,
-    is_angular: bool,
+    space: Space,
 ) -> Gated:
     """
     Find the plots inside the gate of any mode.
@@ -131,17 +131,17 @@ def pair(
         M plots.
     bounds : (d + 2,) array
         Chi-square bound by number of components.
-    is_angular : bool
-        Plots are angles.
+    space : Space
+        Where plots and gates are.
 
     """
     reach = gates.half_size + np.abs(gates.velocity) * longest_lag[:, None]
-    find = sector_pairs if is_angular else box_pairs
-    track, plot = find(gates.centre, reach, scan.position)
+    track, plot = space.find_pairs(gates.centre, reach, scan.position)
     lag = scan.time[plot] - time[track]
     pairs = take(Pairs(track, plot, lag), np.abs(lag) <= longest_lag[track] + 1e-9)
-    expected = gates.centre[pairs.track] if is_angular else None
-    gated, dof = _innovate(planes, mixtures, gates, pairs, scan, expected)
+    position = take_rows(scan.position, pairs.plot)
+    position = space.beside(position, gates.centre, pairs.track)
+    gated, dof = _innovate(planes, mixtures, gates, pairs, scan, position)
     return take(gated, gated.distance <= bounds[dof])
 
 
@@ -151,14 +151,14 @@ def _innovate(
     gates: Gates,
     pairs: Pairs,
     scan: Scan,
-    expected: Floats | None,
+    position: Floats,
 ) -> tuple[Gated, Ints]:
     """Compare all candidates with their predictions; count the components of each plot."""
     has_range_rate = bool(np.isfinite(scan.range_rate).any())
     distance, log_likelihood = np.zeros(len(pairs)), np.zeros(len(pairs))
     dof, innovations = np.zeros(len(pairs), np.int64), []
     for plane, mixture in zip(planes, mixtures, strict=True):
-        measured = measurement.of_plane(plane.coordinates, pairs, scan, expected)
+        measured = measurement.of_plane(plane.coordinates, pairs, scan, position)
         if has_range_rate and 0 in plane.coordinates:
             measured = measurement.with_range_rate(
                 measured, plane.coordinates, pairs, scan,

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from tracking_core.batches import Coverage, Floats
+from tracking_core.space import Space
 
 
 class Sensor(Protocol):
@@ -18,8 +19,8 @@ class Sensor(Protocol):
         ...
 
     @property
-    def is_angular(self) -> bool:
-        """Whether the coordinates of a plot are angles, which come again every turn."""
+    def space(self) -> Space:
+        """Where its plots are: points or angles."""
         ...
 
     @property

@@ -162,7 +162,7 @@ class Tracker:
         """Return the tracks without those that follow another's contact, and the ids of these."""
         merge, is_unresolved = self.setup.merge, self.setup.resolution is not None
         living, doubled = end_doubles(
-            seen.tracks, seen.passed, merge, self.setup.sensor.is_angular, is_unresolved
+            seen.tracks, seen.passed, merge, self.setup.sensor.space, is_unresolved
         )
         return take(living, ~doubled), living.id[doubled]
 

@@ -84,7 +84,7 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     bounds = thresholds(setup.gate_probability, setup.sensor.dimensions)
     gated = pair(
         setup.planes, near.planes, near.gates, near.time, longest_lag(near, scan), scan, bounds,
-        setup.sensor.is_angular,
+        setup.sensor.space,
     )  # fmt: skip
     due = _due(near, gated, scan)
     waiting = np.zeros(len(scan), bool)

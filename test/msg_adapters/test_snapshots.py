@@ -100,7 +100,7 @@ def test_restored_three_dimensional_radar_goes_on(path):
             station.now = PERIOD * number
         tables = {bytes(s.session.plots(msg, s.now).data) for s in stations}
         assert len(tables) == 1
-    assert stations[1].session.instrument.tracker.dimensions == 3
+    assert stations[1].session.instrument.tracker.radar.dimensions == 3
 
 
 def test_ids_are_reserved_before_they_are_given_away(sensor, path):

@@ -131,7 +131,7 @@ def test_chance_of_one_cell_is_that_of_samples() -> None:
     ).resolution  # fmt: skip
     mean = np.array([[20e3, 10e3], [20_090.0, 10_150.0]])
     P = np.array([[[900.0, 300.0], [300.0, 2_500.0]], [[1_600.0, -200.0], [-200.0, 400.0]]])
-    *_, chance = near_pairs(Places(mean, P, np.zeros((2, 2))), HERE, rule, False)
+    *_, chance = near_pairs(Places(mean, P, np.zeros((2, 2))), HERE, rule)
     one, other = (rng.multivariate_normal(mean[k], P[k], 200_000) for k in (0, 1))
     limit = 1.0 + rule.softness * rng.normal(size=(200_000, 2))
     inside = (np.abs(radar(2).separation(one, other, HERE)) < limit).all(axis=1)

@@ -19,6 +19,7 @@ from tracking_core.linalg import wrap_angle
 from tracking_core.merging import duplicates
 from tracking_core.platform import Platform, StalePlatform
 from tracking_core.rows import concatenate
+from tracking_core.space import ANGLES
 
 DEGREE = np.pi / 180.0
 PERIOD, CYCLES = 2.0, 120
@@ -113,7 +114,7 @@ def test_doubles_across_the_wrap_are_ended() -> None:
     mean[..., 0] -= 2.0 * np.pi
     double = replace(one, id=one.id + 1, planes=(replace(one.planes[0], mean=mean),))
     both = concatenate(one, double)
-    assert_array_equal(duplicates(both, 1.0, is_angular=True), [False, True])
+    assert_array_equal(duplicates(both, 1.0, space=ANGLES), [False, True])
     assert not duplicates(both, 1.0).any()
 
 

@@ -13,6 +13,7 @@ from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.tracker import SonarTracker
 from tracking_core.identity import keep_ids
 from tracking_core.rows import take
+from tracking_core.space import ANGLES
 
 
 def state_of(*x):
@@ -58,5 +59,5 @@ def test_bearings_a_turn_apart_are_the_same():
     before = tracker.state
     tracker.reset()
     tracker.start_track(np.array([-np.pi + 0.001]), 0.0)
-    kept = keep_ids(before, tracker.state, first=1, is_angular=True)
+    kept = keep_ids(before, tracker.state, first=1, space=ANGLES)
     assert_array_equal(kept.tracks.id, before.tracks.id)

@@ -37,11 +37,11 @@ def test_of_plane_measures_at_the_time_of_the_plot() -> None:
     """H moves the track over the lag."""
     scan = make_scan([[1000.0, 2000.0, 300.0]])
     pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.array([0.5]))
-    level = measurement.of_plane((0, 1), pairs, scan)
+    level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
     assert_allclose(level.matrix[0], [[1.0, 0.5, 0.0, 0.0], [0.0, 0.0, 1.0, 0.5]])
     assert_allclose(level.value[0], [1000.0, 2000.0])
     assert_allclose(level.covariance[0], [[150.0, 50.0], [50.0, 150.0]])
-    height = measurement.of_plane((2,), pairs, scan)
+    height = measurement.of_plane((2,), pairs, scan, scan.position[pairs.plot])
     assert_allclose(height.matrix[0], [[1.0, 0.5]])
     assert_allclose(height.value[0], [300.0])
     assert_array_equal(height.absent, [0])
@@ -51,7 +51,7 @@ def test_of_plane_leaves_out_what_is_not_measured() -> None:
     """A plot without height tells nothing of the vertical plane: likelihood 1, no change."""
     scan = make_scan([[1000.0, 2000.0, np.nan]])
     pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
-    height = measurement.of_plane((2,), pairs, scan)
+    height = measurement.of_plane((2,), pairs, scan, scan.position[pairs.plot])
     assert_array_equal(height.absent, [1])
     plane = Mixture(np.ones((1, 1, 2)), np.eye(2)[None, None], np.ones((1, 1)), np.zeros((1, 0)))
     result = innovate(plane, pairs.track, height)
@@ -68,7 +68,7 @@ def test_with_range_rate_measures_along_the_line_of_sight() -> None:
     range_rate = sight @ (velocity[0] - [0.0, 5.0, 0.0])
     scan = make_scan([offset + SENSOR], [range_rate])
     pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
-    level = measurement.of_plane((0, 1), pairs, scan)
+    level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
     full = measurement.with_range_rate(
         level, (0, 1), pairs, scan, velocity, np.array([[9.0, 9.0, 2.0]])
     )
@@ -89,7 +89,7 @@ def test_with_range_rate_ignores_plots_without() -> None:
     """A NaN row leaves position and likelihood as they were."""
     scan = make_scan([[700.0, 800.0], [700.0, 800.0]], [np.nan, -10.0])
     pairs = Pairs(np.array([0, 0]), np.array([0, 1]), np.zeros(2))
-    level = measurement.of_plane((0, 1), pairs, scan)
+    level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
     full = measurement.with_range_rate(
         level, (0, 1), pairs, scan, np.full((2, 2), 10.0), np.ones((2, 2))
     )

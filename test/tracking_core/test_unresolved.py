@@ -17,6 +17,7 @@ from tracking_core.batches import Bearings, Coverage, Mixture, Scan, Tracks
 from tracking_core.composition import Density
 from tracking_core.config import with_values
 from tracking_core.platform import pose_at
+from tracking_core.space import ANGLES, POINTS, Space
 from tracking_core.unresolved.grouping import group_tracks, Links
 from tracking_core.unresolved.resolution import near_pairs, Places, Resolution, within_limit
 from tracking_core.unresolved.sets import as_one
@@ -43,7 +44,7 @@ def places(*bearings, sd=1e-3) -> Places:
 def chances(sonar: Sonar, *bearings, sd=1e-3, coverage=HERE, least=1e-3) -> dict:
     """Return the chance of each pair of tracks to be one."""
     resolution = Resolution(sonar, 0.1, 0.5, 0.05, 0.3, least)
-    first, second, chance = near_pairs(places(*bearings, sd=sd), coverage, resolution, True)
+    first, second, chance = near_pairs(places(*bearings, sd=sd), coverage, resolution)
     return {(int(a), int(b)): float(c) for a, b, c in zip(first, second, chance, strict=True)}
 
 
@@ -78,6 +79,7 @@ class Cells:
 
     depth: float = 100.0
     width: float = 0.02
+    space: Space = POINTS
 
     def separation(self, first, second, coverage):
         """Return range and azimuth apart, in cells."""
@@ -97,7 +99,7 @@ def test_near_pairs_of_a_radar_need_both_range_and_azimuth() -> None:
     mean = np.array([[10_000.0, 0.0], [10_050.0, 100.0], [10_050.0, 300.0], [10_300.0, 0.0]])
     P = np.tile(25.0 * np.eye(2), (4, 1, 1))
     rule = Resolution(Cells(), 0.1, 0.5, 0.05, 0.3, 0.1)
-    first, second, chance = near_pairs(Places(mean, P, np.zeros((4, 2))), HERE, rule, False)
+    first, second, chance = near_pairs(Places(mean, P, np.zeros((4, 2))), HERE, rule)
     assert list(zip(first, second, strict=True)) == [(0, 1), (1, 2)]
     assert chance[0] > 0.95
     assert chance[1] == pytest.approx(0.5, abs=0.05)
@@ -107,7 +109,7 @@ def test_within_limit_marks_plots_beside_contacts() -> None:
     """Nearer than the limit to a contact, across the wrap too."""
     plots = np.array([[3.14], [-3.13], [3.05], [0.0]])
     rule = Resolution(OMNI, 0.1, 0.5, 0.05, 0.3, 0.1)
-    near = within_limit(np.array([[3.13]]), plots, HERE, rule, True)
+    near = within_limit(np.array([[3.13]]), plots, HERE, rule)
     assert_array_equal(near, [True, True, False, False])
 
 
@@ -116,7 +118,7 @@ def test_as_one_averages_by_level() -> None:
     links = Links(np.array([0, 2]), np.array([1, 3]), np.array([0.5, 0.5]))
     groups = group_tracks(links, np.ones(4))
     level = np.array([20.0, 10.0, np.nan, np.nan])
-    sets = as_one(places(3.13, 3.15 - 2.0 * np.pi, 0.0, 0.02), groups, level, True)
+    sets = as_one(places(3.13, 3.15 - 2.0 * np.pi, 0.0, 0.02), groups, level, ANGLES)
     assert_allclose(sets.share, [10 / 11, 1 / 11, 0.5, 0.5])
     assert_allclose(sets.mean[:, 0], [3.13 + 0.02 / 11, 0.01], rtol=1e-12)
     assert_allclose(sets.spread[1, 0, 0], 1e-4, rtol=1e-9)

@@ -23,7 +23,7 @@ from tracking_core.pairing import Gated
 from tracking_core.prediction import Predicted
 from tracking_core.rows import concatenate, put, take
 from tracking_core.unresolved.grouping import group_tracks, Groups, Links
-from tracking_core.unresolved.laws import as_common, candidates, compare, Laws, near
+from tracking_core.unresolved.laws import as_common, candidates, compare, Laws
 from tracking_core.unresolved.resolution import interference, near_pairs, Places
 from tracking_core.unresolved.sets import as_one, Common, places_of
 
@@ -53,11 +53,11 @@ def add_common(
         None if no two tracks are near enough, or if the sensor resolves everything.
 
     """
-    resolution, angular = setup.resolution, setup.sensor.is_angular
+    resolution, space = setup.resolution, setup.sensor.space
     if resolution is None or len(passed.time) < 2:
         return gated, None
     places = places_of(setup.planes, passed.planes, setup.sensor.dimensions)
-    first, second, chance = near_pairs(places, scan.coverage, resolution, angular)
+    first, second, chance = near_pairs(places, scan.coverage, resolution)
     # Only what is sure and in sight can hide something else: a doubtful track near a contact
     # would live on its plots.
     seen = passed.tracks.confirmed & (passed.detection > 0.0)
@@ -66,7 +66,7 @@ def add_common(
         return gated, None
     links = Links(first[likely], second[likely], chance[likely])
     groups = group_tracks(links, passed.tracks.existence_probability)
-    sets = as_one(places, groups, passed.tracks.level, angular)
+    sets = as_one(places, groups, passed.tracks.level, space)
     found = candidates(places, sets, groups, passed, scan, setup, resolution)
     laws = compare(places, sets, groups, scan, setup, resolution, found)
     blur = interference(places, links, scan.coverage, resolution)
@@ -84,11 +84,9 @@ def _blur_own(gated: Gated, blur: Floats, passed: Predicted, scan: Scan, setup: 
         return gated
     pairs = take(gated.pairs, pulled)
     R = scan.covariance[pairs.plot] + blur[pairs.track]
-    expected = passed.gates.centre[pairs.track]
-    part = _compare_again(
-        pairs, scan, near(scan.position[pairs.plot], expected, setup), np.ones(len(pulled)), R,
-        passed, setup,
-    )  # fmt: skip
+    position = scan.position[pairs.plot]
+    position = setup.sensor.space.beside(position, passed.gates.centre, pairs.track)
+    part = _compare_again(pairs, position, np.ones(len(pulled)), R, passed, setup)
     return put(gated, pulled, replace(part, common=gated.common[pulled]))
 
 
@@ -105,21 +103,20 @@ def _measure(
     used = np.flatnonzero(laws.part > 0.0)
     plot, track = laws.plot[laws.pair[used]], groups.member[laws.member[used]]
     lag, share = scan.time[plot] - passed.time[track], laws.share[used]
-    z = near(scan.position[plot], laws.expected[used], setup)
+    z = setup.sensor.space.beside(scan.position[plot], laws.expected, used)
     own = places.mean[track] + places.velocity[track] * lag[:, None]
     value = z - laws.expected[used] + share[:, None] * own
     R = scan.covariance[plot] + laws.noise[used] + laws.alone[used, None, None] * blur[track]
-    rows = _compare_again(Pairs(track, plot, lag), scan, value, share, R, passed, setup)
+    rows = _compare_again(Pairs(track, plot, lag), value, share, R, passed, setup)
     return replace(rows, common=used)
 
 
 def _compare_again(
-    pairs: Pairs, scan: Scan, value: Floats, share: Floats, R: Floats, passed: Predicted,
-    setup: Setup,
-) -> Gated:  # fmt: skip
+    pairs: Pairs, value: Floats, share: Floats, R: Floats, passed: Predicted, setup: Setup
+) -> Gated:
     """Compare plots (P, d) with a share of the tracks, with noise R (P, d, d)."""
     innovations = tuple(
-        _innovate(plane, mixture, pairs, scan, value, share, R)
+        _innovate(plane, mixture, pairs, value, share, R)
         for plane, mixture in zip(setup.planes, passed.planes, strict=True)
     )
     distance = np.sum([item.distance.min(axis=1) for item in innovations], axis=0)
@@ -137,14 +134,11 @@ def _innovate(
     plane: Plane,
     mixture: Mixture,
     pairs: Pairs,
-    scan: Scan,
     value: Floats,
     share: Floats,
     R: Floats,
 ) -> Innovations:
     at = np.array(plane.coordinates)
-    own = measurement.of_plane(plane.coordinates, pairs, scan)
-    part = measurement.without_absent(
-        value[:, at], share[:, None, None] * own.matrix, R[:, at[:, None], at]
-    )
+    matrix = share[:, None, None] * measurement.after(pairs.lag, len(at))
+    part = measurement.without_absent(value[:, at], matrix, R[:, at[:, None], at])
     return plane.estimator.innovate(mixture, pairs.track, part)

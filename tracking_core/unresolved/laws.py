@@ -10,8 +10,7 @@ import numpy as np
 
 from tracking_core.batches import Floats, Ints, Scan
 from tracking_core.composition import Setup
-from tracking_core.gating import box_pairs, sector_pairs
-from tracking_core.linalg import inverse, nearest_turn
+from tracking_core.linalg import inverse
 from tracking_core.pairing import thresholds
 from tracking_core.prediction import longest_lag, Predicted
 from tracking_core.unresolved.grouping import Groups
@@ -61,8 +60,7 @@ def candidates(
     low = np.minimum(np.minimum.reduceat(sets.place - own, sets.start), sets.mean - half)
     high = np.maximum(np.maximum.reduceat(sets.place + own, sets.start), sets.mean + half)
     reach = 0.5 * (high - low) + np.abs(sets.velocity) * lag_max[:, None]
-    find = sector_pairs if setup.sensor.is_angular else box_pairs
-    row, plot = find(0.5 * (low + high), reach, scan.position)
+    row, plot = setup.sensor.space.find_pairs(0.5 * (low + high), reach, scan.position)
     lag = scan.time[plot] - passed.time[leader[row]]
     fits = np.isfinite(scan.position[plot]).all(axis=1) & (np.abs(lag) <= lag_max[row] + 1e-9)
     return row[fits], plot[fits], lag[fits]
@@ -121,7 +119,7 @@ def _made_by_all(
     """Return where all members together would make the plot (Q, d), and its log density (Q,)."""
     row, plot, lag = found
     mean = sets.mean[row] + sets.velocity[row] * lag[:, None]
-    z = near(scan.position[plot], sets.mean[row], setup)
+    z = setup.sensor.space.beside(scan.position[plot], sets.mean, row)
     S = _blur(sets, resolution)[row] + scan.covariance[plot]
     return mean, _log_gaussian(z - mean, S, _bound(scan, setup)) + np.log1p(-resolution.capture)
 
@@ -140,7 +138,7 @@ def _made_by_one(
     member = sets.start[row[pair]] + _rank(pair)
     track = groups.member[member]
     own = sets.place[member] + places.velocity[track] * lag[pair, None]
-    z = near(scan.position[plot], sets.mean[row], setup)[pair]
+    z = setup.sensor.space.beside(scan.position[plot], sets.mean, row)[pair]
     S = places.covariance[track] + scan.covariance[plot][pair]
     density = _log_gaussian(z - own, S, _bound(scan, setup))
     return pair, member, own, density + np.log(resolution.capture * sets.share[member])
@@ -166,11 +164,6 @@ def as_common(laws: Laws, sets: Sets, groups: Groups) -> Common:
         hidden_track=groups.member[laws.member[alone]],
         hidden_part=drowned,
     )
-
-
-def near(position: Floats, expected: Floats, setup: Setup) -> Floats:
-    """Return plots (P, d), those that are angles within half a turn of what is expected."""
-    return nearest_turn(position, expected) if setup.sensor.is_angular else position
 
 
 def _bound(scan: Scan, setup: Setup) -> float:

@@ -12,7 +12,7 @@ from scipy.special import ndtr
 
 from tracking_core.batches import Bools, Coverage, Floats, Ints
 from tracking_core.chances import TINY
-from tracking_core.gating import box_pairs, sector_pairs
+from tracking_core.space import Space
 from tracking_core.unresolved.grouping import Links
 
 _SIGMAS = 3.0  # tracks further apart than the limit and so many sd are not looked at
@@ -21,6 +21,11 @@ _LARGEST_CHANCE = 1.0 - 1e-6  # nothing is certain: the logarithm of what is lef
 
 class Resolving(Protocol):
     """A sensor that says when contacts are unresolved."""
+
+    @property
+    def space(self) -> Space:
+        """Where its plots are: points or angles."""
+        ...
 
     def separation(self, first: Floats, second: Floats, coverage: Coverage) -> Floats:
         """Return (P, c): how far apart, in units of the limit, in each of c coordinates."""
@@ -53,14 +58,14 @@ class Places:
 
 
 def near_pairs(
-    places: Places, coverage: Coverage, resolution: Resolution, is_angular: bool
+    places: Places, coverage: Coverage, resolution: Resolution
 ) -> tuple[Ints, Ints, Floats]:
     """Return the tracks (L,), (L,) that may be one, and the chance (L,) that they are."""
     sd = np.sqrt(np.einsum('tdd->td', places.covariance))
     # Each looks as far as the pair may be apart if it is the vaguer one of the two.
     reach = resolution.sensor.reach(places.mean, coverage) * (1.0 + _SIGMAS * resolution.softness)
-    find = sector_pairs if is_angular else box_pairs
-    one, other = find(places.mean, reach + 2.0 * _SIGMAS * sd, places.mean)
+    reach = reach + 2.0 * _SIGMAS * sd
+    one, other = resolution.sensor.space.find_pairs(places.mean, reach, places.mean)
     T, apart = len(sd), one != other
     pairs = np.unique((np.minimum(one, other) * T + np.maximum(one, other))[apart])
     first, second = np.divmod(pairs, max(T, 1))
@@ -81,12 +86,12 @@ def interference(
 
 
 def within_limit(
-    contacts: Floats, plots: Floats, coverage: Coverage, resolution: Resolution, is_angular: bool
+    contacts: Floats, plots: Floats, coverage: Coverage, resolution: Resolution
 ) -> Bools:
     """Return which plots (M, d) are nearer than the limit to one of the contacts (T, d)."""
-    find = sector_pairs if is_angular else box_pairs
-    track, plot = find(contacts, resolution.sensor.reach(contacts, coverage), plots)
-    apart = resolution.sensor.separation(contacts[track], plots[plot], coverage)
+    sensor = resolution.sensor
+    track, plot = sensor.space.find_pairs(contacts, sensor.reach(contacts, coverage), plots)
+    apart = sensor.separation(contacts[track], plots[plot], coverage)
     near = np.zeros(len(plots), bool)
     near[plot[(np.abs(apart) < 1.0).all(axis=1)]] = True
     return near

@@ -11,8 +11,8 @@ import numpy as np
 from tracking_core.association.partitions import Partitions
 from tracking_core.batches import Floats, Ints, Mixture
 from tracking_core.composition import Plane
-from tracking_core.linalg import nearest_turn
 from tracking_core.pairing import axes_of
+from tracking_core.space import Space
 from tracking_core.unresolved.grouping import Groups
 from tracking_core.unresolved.resolution import Places
 
@@ -64,15 +64,14 @@ def places_of(planes: tuple[Plane, ...], mixtures: tuple[Mixture, ...], d: int) 
     return Places(mean, covariance, velocity)
 
 
-def as_one(places: Places, groups: Groups, level: Floats, is_angular: bool) -> Sets:
+def as_one(places: Places, groups: Groups, level: Floats, space: Space) -> Sets:
     """Average the tracks of each set by their level (T,) [dB], NaN where it is not known."""
     start = np.flatnonzero(np.diff(groups.unit, prepend=-1))
     of, member = groups.unit - groups.unit[0], groups.member
     power = _known_power(level[member], of, len(start))
     share = power / np.bincount(of, power)[of]
     place = places.mean[member]
-    if is_angular:
-        place = nearest_turn(place, place[start][of])
+    place = space.beside(place, place[start], of)
 
     def total(values: Floats) -> Floats:
         return np.add.reduceat(values, start, axis=0)
