@@ -13,6 +13,7 @@ from tracking_core.batches import Association, Floats, Innovations, Ints, Measur
 from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
 from tracking_core.estimators import Estimator, SeesFromSensor
 from tracking_core.linalg import sum_by_track
+from tracking_core.marks import as_data, average
 
 _COLUMNS = 2  # of `Mixture.memory`, the last ones: bearing [rad], weight [1/rad^2]
 _ALONE = 0.1  # marks that follow the track by less or more than 1 by this are of others too
@@ -76,16 +77,11 @@ def last_marks(mixture: Mixture) -> tuple[Floats, Floats]:
 def _mark(
     mixture: Mixture, track: Ints, innovations: Innovations, association: Association
 ) -> Floats:
-    T, mode = len(mixture.mean), np.argmax(mixture.mode_probability, axis=1)
-    row, at = np.arange(len(track)), mode[track]
-    cross = innovations.cross_covariance[row, at, 0, 0]
-    h = cross / mixture.covariance[track, at, 0, 0]  # z = h bearing + what is not of this track
-    bearing = mixture.mean[track, at, 0] + innovations.innovation[row, at, 0] / h
-    R = np.maximum(innovations.covariance[row, at, 0, 0] - h * cross, 0.0) / h**2
+    T = len(mixture.mean)
+    bearing, R, h = as_data(mixture, track, innovations)
     found = sum_by_track(association.probability, track, T)
     share = association.probability / np.maximum(found, TINY)[track]
-    mean = sum_by_track(share * bearing, track, T)
-    variance = sum_by_track(share * (R + (bearing - mean[track]) ** 2), track, T)
+    mean, variance = average(share, bearing, R, track, T)
     alone = sum_by_track(share * (np.abs(h - 1.0) < _ALONE), track, T)
     told = (found > MORE_LIKELY_THAN_NOT) & (alone > MORE_LIKELY_THAN_NOT) & (variance > 0.0)
     weight = np.where(told, found / np.where(told, variance, 1.0), 0.0)

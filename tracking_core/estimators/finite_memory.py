@@ -11,7 +11,7 @@ import numpy as np
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
 from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
 from tracking_core.kalman import innovate
-from tracking_core.linalg import sum_by_track
+from tracking_core.marks import as_data, average
 
 _LEAST_POINTS = 3  # are never forgotten: a track that is not seen keeps its line
 
@@ -67,9 +67,8 @@ class FiniteMemory:
         T = len(mixture.mean)
         found = 1.0 - association.miss
         share = association.probability / np.maximum(found, TINY)[track]
-        bearing, R = _as_points(mixture, track, innovations)
-        mean = sum_by_track(share * bearing, track, T)
-        variance = sum_by_track(share * (R + (bearing - mean[track]) ** 2), track, T)
+        bearing, R, _ = as_data(mixture, track, innovations)
+        mean, variance = average(share, bearing, R, track, T)
         memory = _unpacked(mixture).copy()
         is_point = found > MORE_LIKELY_THAN_NOT
         left = (memory[:, 2, :-1] > 0.0).sum(axis=1)
@@ -80,15 +79,6 @@ class FiniteMemory:
         weight = np.where(is_point, found / np.where(is_point, variance, 1.0), 0.0)
         memory[new, 2, 0] = weight[new]
         return _fitted(memory)
-
-
-def _as_points(mixture: Mixture, track: Ints, innovations: Innovations) -> tuple[Floats, Floats]:
-    """Return each pair's bearing at the time of the look (P,) and its variance as data (P,)."""
-    nu, S = innovations.innovation[:, 0, 0], innovations.covariance[:, 0, 0, 0]
-    cross, P = innovations.cross_covariance[:, 0, 0, 0], mixture.covariance[track, 0, 0, 0]
-    # z = h b + noise with h = 1, or the track's share in an unresolved plot: cross = h P.
-    h = cross / P
-    return mixture.mean[track, 0, 0] + nu / h, np.maximum(S - h * cross, 0.0) / h**2
 
 
 def _unpacked(mixture: Mixture) -> Floats:
