@@ -23,7 +23,7 @@ from benchmarks.recordings import data_folder
 from benchmarks.sonar_data import COLUMNS, FIRST, preset
 from benchmarks.sonar_recordings import DEGREE, Record, vessels
 from benchmarks.sonar_scenes import sea
-from benchmarks.sonar_score import Rows, score
+from benchmarks.sonar_score import BearingRows, score
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.association import ASSOCIATORS
@@ -55,7 +55,7 @@ class Oracle:
         return self._associate(track, plot, told, log_miss, plots)
 
 
-def track(record: Record, angle: float) -> list[Rows]:
+def track(record: Record, angle: float) -> list[BearingRows]:
     """Return the confirmed tracks after each cycle; the oracle is silent within `angle` [rad]."""
     values = {**preset('direction_finder'), 'ranging.enabled': False}
     tracker, rows = SonarTracker(with_values(SonarTrackerConfig(), values)), []
@@ -72,7 +72,7 @@ def track(record: Record, angle: float) -> list[Rows]:
         tracks = tracker.track(message, record.platform)
         where, sure = bearing_states(tracks).bearing, tracks.confirmed
         oracle.owner = np.where(sure, _owners(where, contact, bearing, alone), NOT_TOLD)
-        rows.append(Rows(tracks.id[sure], where[sure], np.full(sure.sum(), np.nan)))
+        rows.append(BearingRows(tracks.id[sure], where[sure], np.full(sure.sum(), np.nan)))
     return rows
 
 

@@ -18,7 +18,7 @@ _STAYS = 100.0  # [rad] more than any angle: who was on a contact goes first
 
 
 @dataclass(frozen=True)
-class Rows:
+class BearingRows:
     """The T confirmed tracks after a cycle."""
 
     id: Ints  # (T,)
@@ -30,7 +30,7 @@ class Rows:
 
 
 @dataclass(frozen=True)
-class Score:
+class BearingScore:
     """How well the contacts were held; shares and rms are of contact cycles within reach."""
 
     heard: float  # share with a mark near the contact
@@ -56,7 +56,7 @@ class Match:
     range: Floats  # [m], NaN: not told
 
 
-def match(record: Record, rows: Sequence[Rows]) -> Match:
+def match(record: Record, rows: Sequence[BearingRows]) -> Match:
     """
     Return the tracks on the contacts, one to one, nearest first.
 
@@ -82,7 +82,7 @@ def match(record: Record, rows: Sequence[Rows]) -> Match:
     return found
 
 
-def score(record: Record, rows: Sequence[Rows]) -> Score:
+def score(record: Record, rows: Sequence[BearingRows]) -> BearingScore:
     """Compare the tracks after every cycle with the truth."""
     found, heard = match(record, rows), _heard(record)
     on, wanted = found.id >= 0, record.distance <= record.reach
@@ -97,7 +97,7 @@ def score(record: Record, rows: Sequence[Rows]) -> Score:
     told = on & np.isfinite(found.range)
     relative = np.abs(found.range[told] / record.distance[told] - 1.0)
     hours = (record.cycles[-1].stamp - record.cycles[0].stamp) / 3600.0
-    return Score(
+    return BearingScore(
         heard=_mean(heard[wanted]),
         coverage=_mean(on[wanted]),
         held=_mean(on[wanted & heard]),

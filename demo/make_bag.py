@@ -14,13 +14,13 @@ import sys
 from flights_from_wheel import DURATION, Flight, read_flights
 import numpy as np
 
-from tracking_tools.scenarios import Contact, Radar, Sampled, Scenario
+from tracking_tools.scenarios import Contact, Sampled, Scenario, SimulatedRadar
 from tracking_tools.simulate import record
 
 HERE = Path(__file__).parent
 FLIGHTS, BAG = HERE / 'flights.npz', HERE / 'terminal_area'
 
-RADAR = Radar(
+RADAR = SimulatedRadar(
     period=4.0,
     range_sd=50.0,
     azimuth_sd=math.radians(0.1),

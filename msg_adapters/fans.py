@@ -22,10 +22,10 @@ from msg_adapters.message_types import MessageTypes
 from msg_adapters.shapes import (
     arrows,
     colours,
+    Drawing,
     ellipses,
     erase,
     LETTER,
-    Look,
     SIGMAS,
 )
 from tracking_core.batches import Floats, Tracks
@@ -84,7 +84,7 @@ def to_fan_markers(
     brush = Brush(header, types)
     colour = colours(tracks.id, tracks.confirmed)
     known = np.isin(tracks.id, located.id)
-    look = Look(located, colour[known], fans.length)
+    drawing = Drawing(located, colour[known], fans.length)
     narrow = SIGMAS * fans.bearing_sd
     parts = [
         erase(shown, tracks.id, NAMESPACES, brush),
@@ -92,8 +92,8 @@ def to_fan_markers(
         _fans('fan', fans.bearing, narrow, tracks, fans, colour, brush),
         _fans('gate', fans.bearing, fans.gate, tracks, fans, colour, brush),
         _labels(tracks, fans, colour, brush),
-        arrows(look, brush, lead_time),
-        ellipses(look, brush),
+        arrows(drawing, brush, lead_time),
+        ellipses(drawing, brush),
     ]
     if fans.axis is not None:
         mirrored = 2.0 * fans.axis - fans.bearing

@@ -16,7 +16,7 @@ from tracking_core.platform import Platform
 from tracking_core.space import Space
 
 
-class Tracker(Protocol):
+class SensorTracker(Protocol):
     """Tracks of one sensor."""
 
     config: Any
@@ -75,7 +75,7 @@ class Instrument(Protocol):
         """Return where its plots come."""
 
     @property
-    def tracker(self) -> Tracker:
+    def tracker(self) -> SensorTracker:
         """Return what follows the contacts."""
 
     @property

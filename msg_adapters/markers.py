@@ -19,11 +19,11 @@ from msg_adapters.message_types import MessageTypes
 from msg_adapters.shapes import (
     arrows,
     colours,
+    Drawing,
     ellipses,
     erase,
     gates,
     labels,
-    Look,
     round_extent,
     rows,
     THIN,
@@ -74,25 +74,25 @@ def to_markers(
     if len(tracks):
         bodies = to_bodies(tracks, output)
         extent = round_extent(bodies.state[:, :3])
-        look = Look(bodies, colours(tracks.id, tracks.confirmed), extent)
+        drawing = Drawing(bodies, colours(tracks.id, tracks.confirmed), extent)
         parts = (
-            _histories(look, brush, trails),
-            arrows(look, brush, lead_time),
-            ellipses(look, brush),
-            gates(look, brush, tracks.gate_size, lean),
-            labels(look, brush),
+            _histories(drawing, brush, trails),
+            arrows(drawing, brush, lead_time),
+            ellipses(drawing, brush),
+            gates(drawing, brush, tracks.gate_size, lean),
+            labels(drawing, brush),
         )
         markers.extend(chain.from_iterable(parts))
     return types.MarkerArray(markers=markers)
 
 
-def _histories(look: Look, brush: Brush, trails: Trails) -> Iterator[Any]:
+def _histories(drawing: Drawing, brush: Brush, trails: Trails) -> Iterator[Any]:
     """Yield the trails, newest point first, from the colour of the track to nothing."""
-    width = [THIN * look.extent, 0.0, 0.0]
-    position = trails.of(look.bodies.id)
+    width = [THIN * drawing.extent, 0.0, 0.0]
+    position = trails.of(drawing.bodies.id)
     known = np.isfinite(position[:, :, 0]).sum(axis=1)
     fade = 1.0 - np.arange(position.shape[1]) / position.shape[1]
-    for row, (identity, _, count, colour) in enumerate(rows(look, known, look.colour)):
+    for row, (identity, _, count, colour) in enumerate(rows(drawing, known, drawing.colour)):
         if count > 1:
             *rgb, opacity = colour
             yield brush.marker(

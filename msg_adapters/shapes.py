@@ -32,7 +32,7 @@ FLAT = 0.01  # m, height of what lies in the plane; RViz refuses 0
 
 
 @dataclass(frozen=True)
-class Look:
+class Drawing:
     """What the parts of a drawing have in common, one row per contact."""
 
     bodies: Bodies
@@ -72,15 +72,17 @@ def round_extent(position: Floats) -> float:
     return float(2.0 ** np.ceil(np.log2(farthest))) if np.isfinite(farthest) else 1.0
 
 
-def rows(look: Look, *columns: Any) -> Iterator[tuple[Any, ...]]:
+def rows(drawing: Drawing, *columns: Any) -> Iterator[tuple[Any, ...]]:
     """Yield id, position and these columns of each contact as plain Python values."""
-    plain = [column.tolist() for column in (look.bodies.id, look.bodies.state[:, :3], *columns)]
+    plain = [
+        column.tolist() for column in (drawing.bodies.id, drawing.bodies.state[:, :3], *columns)
+    ]
     return zip(*plain, strict=True)
 
 
-def arrows(look: Look, brush: Brush, lead_time: float) -> Iterator[Any]:
+def arrows(drawing: Drawing, brush: Brush, lead_time: float) -> Iterator[Any]:
     """Yield arrows that end where the contacts will be after the lead time [s]."""
-    vx, vy, vz = look.bodies.state[:, 3:].T
+    vx, vy, vz = drawing.bodies.state[:, 3:].T
     speed = np.hypot(vx, vy)
     half_yaw, half_pitch = 0.5 * np.arctan2(vy, vx), -0.5 * np.arctan2(vz, speed)
     turn = np.stack(
@@ -93,29 +95,31 @@ def arrows(look: Look, brush: Brush, lead_time: float) -> Iterator[Any]:
         axis=1,
     )
     length = np.maximum(np.hypot(speed, vz) * lead_time, FLAT)
-    width = 3.0 * THIN * look.extent
-    for identity, place, toward, ahead, colour in rows(look, turn, length, look.colour):
+    width = 3.0 * THIN * drawing.extent
+    for identity, place, toward, ahead, colour in rows(drawing, turn, length, drawing.colour):
         yield brush.marker(
             'velocity', identity, 'ARROW', position=place, turn=toward,
             scale=[ahead, width, width], color=colour,
         )  # fmt: skip
 
 
-def ellipses(look: Look, brush: Brush) -> Iterator[Any]:
+def ellipses(drawing: Drawing, brush: Brush) -> Iterator[Any]:
     """Yield the covariance of each position, out to three sigma."""
-    return _ellipses(look, brush, 'covariance', SIGMAS**2 * look.bodies.covariance[:, :3, :3])
+    return _ellipses(
+        drawing, brush, 'covariance', SIGMAS**2 * drawing.bodies.covariance[:, :3, :3]
+    )
 
 
-def gates(look: Look, brush: Brush, half_size: Floats, lean: Floats) -> Iterator[Any]:
+def gates(drawing: Drawing, brush: Brush, half_size: Floats, lean: Floats) -> Iterator[Any]:
     """Yield the gates: half sizes (T, 2) or (T, 3) [m], and how x goes with y in them (T,)."""
     shape = np.zeros((len(lean), 3, 3))
     axes = np.arange(half_size.shape[1])
     shape[:, axes, axes] = half_size**2
     shape[:, 0, 1] = shape[:, 1, 0] = lean * half_size[:, 0] * half_size[:, 1]
-    return _ellipses(look, brush, 'gate', shape)
+    return _ellipses(drawing, brush, 'gate', shape)
 
 
-def _ellipses(look: Look, brush: Brush, space: str, shape: Floats) -> Iterator[Any]:
+def _ellipses(drawing: Drawing, brush: Brush, space: str, shape: Floats) -> Iterator[Any]:
     """Yield see-through ellipses, by the squares of their half axes (T, 3, 3); none if unknown."""
     # Closed form of two by two: it never fails, whatever the numbers.
     (a, b), c = shape[:, 0, :2].T, shape[:, 1, 1]
@@ -125,8 +129,8 @@ def _ellipses(look: Look, brush: Brush, space: str, shape: Floats) -> Iterator[A
     turn = np.stack([zero, zero, np.sin(half_yaw), np.cos(half_yaw)], axis=1)
     squares = np.stack([middle + spread, middle - spread, np.nan_to_num(shape[:, 2, 2])], axis=1)
     size = np.maximum(2.0 * np.sqrt(np.maximum(squares, 0.0)), FLAT)
-    colour = look.colour * [1.0, 1.0, 1.0, OPACITY[space]]
-    for identity, place, toward, scale, paint in rows(look, turn, size, colour):
+    colour = drawing.colour * [1.0, 1.0, 1.0, OPACITY[space]]
+    for identity, place, toward, scale, paint in rows(drawing, turn, size, colour):
         if np.isfinite(scale).all():
             yield brush.marker(
                 space, identity, 'SPHERE', position=place, turn=toward, scale=scale, color=paint
@@ -135,14 +139,14 @@ def _ellipses(look: Look, brush: Brush, space: str, shape: Floats) -> Iterator[A
             yield brush.marker(space, identity, 'DELETE')
 
 
-def labels(look: Look, brush: Brush) -> Iterator[Any]:
+def labels(drawing: Drawing, brush: Brush) -> Iterator[Any]:
     """Yield the ids, to port of the contacts, where neither trail nor arrow is."""
-    letter = LETTER * look.extent
-    vx, vy = look.bodies.state[:, 3:5].T
+    letter = LETTER * drawing.extent
+    vx, vy = drawing.bodies.state[:, 3:5].T
     course = np.arctan2(vy, vx)
     aside = np.stack([-np.sin(course), np.cos(course), 0.0 * course], axis=1)
-    place_of = look.bodies.state[:, :3] + ASIDE * letter * aside
-    for identity, _, place, colour in rows(look, place_of, look.colour):
+    place_of = drawing.bodies.state[:, :3] + ASIDE * letter * aside
+    for identity, _, place, colour in rows(drawing, place_of, drawing.colour):
         yield brush.marker(
             'id', identity, 'TEXT_VIEW_FACING', position=place, scale=[0.0, 0.0, letter],
             color=colour, text=str(identity),

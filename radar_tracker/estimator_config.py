@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from tracking_core.alpha_beta import READINGS
 from tracking_core.config import parameter, validate
-from tracking_core.fuzzy import KHACHATUROV, Rules, Sets
+from tracking_core.fuzzy import FuzzySets, KHACHATUROV, Rules
 
 RADAR_ESTIMATORS = (
     'markov_jump', 'markov_jump_joint', 'imm_alpha_beta', 'adaptive_alpha_beta',
@@ -72,7 +72,7 @@ class FuzzyConfig:
                 f'innovation_peaks, got {len(self.rules)}'
             )
         rows = tuple(tuple(self.rules[i * size : (i + 1) * size]) for i in range(size))
-        return Rules(Sets(self.innovation_peaks), Sets(self.gain_peaks), rows)
+        return Rules(FuzzySets(self.innovation_peaks), FuzzySets(self.gain_peaks), rows)
 
 
 @dataclass(frozen=True)

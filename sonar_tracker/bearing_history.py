@@ -16,7 +16,7 @@ _TIME, _BEARING, _WEIGHT = 0, 1, 4  # rows of `points`; 2 and 3 are x and y of o
 
 
 @dataclass(frozen=True)
-class Points:
+class PastMarks:
     """Marks of T tracks, oldest first; those beyond the number of a track have weight 0."""
 
     time: Floats  # (T, K) [s]
@@ -87,12 +87,12 @@ class BearingHistory:
         last = self._points[_TIME, np.arange(len(self.id)), self._count - 1]
         return np.where(self._count > 0, last, -np.inf)
 
-    def read(self, rows: Ints) -> Points:
+    def read(self, rows: Ints) -> PastMarks:
         """Return the marks of these rows that are in the window."""
         time, bearing, x, y, weight = self._points[:, rows]
         recent = time >= self.newest()[rows, None] - self._window
         kept = recent & (np.arange(time.shape[1]) < self._count[rows, None])
-        return Points(
+        return PastMarks(
             time, bearing, np.where(kept, weight, 0.0), np.stack([x, y], -1), kept.sum(axis=1)
         )
 

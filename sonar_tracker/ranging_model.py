@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sonar_tracker.bearing_history import Points
+from sonar_tracker.bearing_history import PastMarks
 from tracking_core.batches import Floats
 from tracking_core.linalg import wrap_angle
 
@@ -39,7 +39,7 @@ class Legs:
     reach: Floats  # (T,) greatest |d| [m]
 
 
-def legs_of(points: Points) -> Legs:
+def legs_of(points: PastMarks) -> Legs:
     """Return the marks about their newest; every track must have at least two."""
     rows = np.arange(len(points.time))
     has = points.weight > 0.0

@@ -22,7 +22,7 @@ _STEPS = 400  # of the grid on which the centre of area is found
 
 
 @dataclass(frozen=True)
-class Sets:
+class FuzzySets:
     """
     Fuzzy sets of one variable: a triangle over each peak, down to 0 at its neighbours.
 
@@ -53,8 +53,8 @@ class Rules:
 
     """
 
-    condition: Sets
-    conclusion: Sets
+    condition: FuzzySets
+    conclusion: FuzzySets
     table: tuple[tuple[int, ...], ...]  # rows: set before, columns: set now; set concluded
 
     def __post_init__(self) -> None:
@@ -101,7 +101,7 @@ class Rules:
 
 NAMES = ('very small', 'small', 'medium', 'large')
 KHACHATUROV = Rules(
-    condition=Sets((0.0, 2.0, 4.0, 6.0)),
-    conclusion=Sets((0.0, 0.2, 0.5, 1.0)),
+    condition=FuzzySets((0.0, 2.0, 4.0, 6.0)),
+    conclusion=FuzzySets((0.0, 0.2, 0.5, 1.0)),
     table=((0, 2, 3, 3), (1, 2, 3, 3), (2, 2, 3, 3), (2, 3, 3, 3)),
 )

@@ -25,7 +25,7 @@ from tracking_tools.replay import RADAR, read_configs, replay
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report import load_page
 from tracking_tools.scene import read_scene
-from tracking_tools.sensors import Configs, Sensor
+from tracking_tools.sensors import Configs, SensorKind
 from tracking_tools.stopping import STOPPED
 
 ROOT = Path(__file__).parent.parent
@@ -36,7 +36,7 @@ class Demo:
     """What is shown."""
 
     name: str  # of the results
-    sensor: Sensor
+    sensor: SensorKind
     recording: Path | None  # bag; None: made anew, which `make_recording` does
     make_recording: Callable[[Path], None]
     parameters: Path

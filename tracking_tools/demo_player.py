@@ -24,7 +24,7 @@ from tracking_tools.replay_topics import (
     messages_of,
     Topics,
 )
-from tracking_tools.sensors import Sensor
+from tracking_tools.sensors import SensorKind
 
 
 def play(
@@ -33,7 +33,7 @@ def play(
     parameters: Path,
     rate: float,
     log: Path,
-    sensor: Sensor = RADAR,
+    sensor: SensorKind = RADAR,
 ) -> None:
     """
     Play a recording to the live node and record its tracks.
@@ -50,7 +50,7 @@ def play(
         Times real time, as far as the node keeps up.
     log : Path
         File for what the node says.
-    sensor : Sensor
+    sensor : SensorKind
         What the plots are from.
 
     Raises

@@ -28,7 +28,7 @@ from tracking_tools.picture import save
 from tracking_tools.picture_style import BACK, dress
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.screen import Screen
-from tracking_tools.sensors import Sensor, SENSORS
+from tracking_tools.sensors import SensorKind, SENSORS
 from tracking_tools.stopping import stoppable
 
 SIZE, DPI = (12.8, 8.4), 125  # inches
@@ -37,7 +37,7 @@ Place = tuple[float, float, float, float]  # left, bottom, width, height in the 
 RATE = 100.0  # drawings a second: every scan of the recording is drawn
 
 
-def play(recording: Path, parameters: Path, sensor: Sensor, until: float, log: Path) -> Screen:
+def play(recording: Path, parameters: Path, sensor: SensorKind, until: float, log: Path) -> Screen:
     """
     Play a recording to a live node and return what stands on a viewer's screen at the end.
 
@@ -47,7 +47,7 @@ def play(recording: Path, parameters: Path, sensor: Sensor, until: float, log: P
         Bag with plots or bearings.
     parameters : Path
         Parameter file of the node.
-    sensor : Sensor
+    sensor : SensorKind
         Whose node it is.
     until : float
         Only the first so many seconds of the recording.

@@ -28,7 +28,7 @@ from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, open_bag, POINT_
 from tracking_tools.parameter_file import configure, parse_value, read_parameter_file
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.report import load_page
-from tracking_tools.sensors import Configs, Sensor, SENSORS
+from tracking_tools.sensors import Configs, SensorKind, SENSORS
 from tracking_tools.stopping import stoppable, STOPPED
 from tracking_tools.summary import Console, Summary
 
@@ -41,7 +41,7 @@ def replay(
     configs: Configs | None = None,
     topics: Topics | None = None,
     quiet: bool = False,
-    sensor: Sensor = RADAR,
+    sensor: SensorKind = RADAR,
 ) -> Summary:
     """
     Write the bag of tracks that the node would have published.
@@ -58,7 +58,7 @@ def replay(
         Where in the bag the messages are, and where the tracks go.
     quiet : bool
         Without progress and remarks.
-    sensor : Sensor
+    sensor : SensorKind
         What the plots are from.
 
     Raises
@@ -158,7 +158,7 @@ def _show(
         pages.report_replay(where, configs, summary.step_times, chosen.report)
 
 
-def read_configs(file: Path | None, settings: Mapping[str, Any], sensor: Sensor) -> Configs:
+def read_configs(file: Path | None, settings: Mapping[str, Any], sensor: SensorKind) -> Configs:
     """Return the parameters of a file, if any, and those set beside it, which win."""
     values = {} if file is None else read_parameter_file(file, f'/{sensor.node}')
     return configure(sensor.configs, {**values, **settings})

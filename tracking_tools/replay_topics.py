@@ -15,7 +15,7 @@ from rosbags.interfaces import Connection
 from msg_adapters.kinds.menu import check_type
 from msg_adapters.session import Session
 from tracking_tools.bags import absolute, BadBag
-from tracking_tools.sensors import Sensor, SENSORS
+from tracking_tools.sensors import SensorKind, SENSORS
 
 DIAGNOSTICS, DIAGNOSTIC_ARRAY = '/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray'
 TYPES = {
@@ -46,13 +46,13 @@ class Topics:
     sensor: str = 'plots'  # what rules and counts call the first one
 
     @staticmethod
-    def of(sensor: Sensor) -> Topics:
+    def of(sensor: SensorKind) -> Topics:
         """Return the names that this sensor's node has."""
         node = f'/{sensor.node}'
         return Topics(f'/{sensor.topic}', tracks=f'{node}/tracks', node=node, sensor=sensor.topic)
 
     @staticmethod
-    def remapped(rules: Iterable[str], sensor: Sensor = SENSORS['radar']) -> Topics:
+    def remapped(rules: Iterable[str], sensor: SensorKind = SENSORS['radar']) -> Topics:
         """
         Return the topics under rules as ROS has them, ``plots:=/radar/plots``.
 

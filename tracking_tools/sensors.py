@@ -20,7 +20,7 @@ Configs = tuple[Any, ...]  # of the tracker, then of its node
 
 
 @dataclass(frozen=True)
-class Sensor:
+class SensorKind:
     """One kind of sensor, as the tools see it."""
 
     node: str  # its name, and the package it is in
@@ -36,14 +36,14 @@ class Sensor:
 
 
 SENSORS = {
-    'radar': Sensor(
+    'radar': SensorKind(
         'radar_tracker',
         'plots',
         (RadarTrackerConfig(), radar_node_config()),
         radar_session,
         'tracking_tools.picture',
     ),
-    'sonar': Sensor(
+    'sonar': SensorKind(
         'sonar_tracker',
         'bearings',
         (SonarTrackerConfig(), sonar_node_config()),

@@ -13,7 +13,7 @@ import pytest
 from radar_tracker.antenna import Antenna, Sweep
 from studies.scenes import messages
 from tracking_core.batches import Plots
-from tracking_tools.scenarios import Contact, Legs, Radar, Scenario
+from tracking_tools.scenarios import Contact, Legs, Scenario, SimulatedRadar
 
 CONTACTS = tuple(
     Contact(k + 1, Legs((r * np.cos(a), r * np.sin(a), 0.0), 120.0, 1.3 * k))
@@ -23,7 +23,7 @@ CONTACTS = tuple(
 
 def sensed(period: float, rotation: str, turns: int, sectors: int = 1, clutter: float = 6.0):
     """Messages of a scene."""
-    radar = Radar(
+    radar = SimulatedRadar(
         period=period, range_sd=30.0, azimuth_sd=0.003, clutter_per_turn=clutter,
         rotation=rotation, range_limits=(500.0, 60_000.0),
     )  # fmt: skip
@@ -128,7 +128,7 @@ def test_follow_heeds_what_the_stamp_means(reference: str, ahead: float) -> None
 @pytest.mark.parametrize('rotation', ['staring', 'clockwise', 'anticlockwise'])
 def test_follow_makes_up_no_rotation_from_one_contact(rotation: str) -> None:
     """One contact once in 4 s fits 4 s a turn, 2 s, 1 s ...: better no rate than a wrong one."""
-    radar = Radar(
+    radar = SimulatedRadar(
         period=4.0, range_sd=30.0, azimuth_sd=0.002, detection_probability=0.8, rotation=rotation
     )
     for contact in CONTACTS:

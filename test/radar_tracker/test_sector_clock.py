@@ -19,14 +19,14 @@ from radar_tracker.session import radar_session
 from studies.scenes import messages
 from tracking_core.batches import Plots
 from tracking_core.config import with_values
-from tracking_tools.scenarios import Contact, Legs, Radar, Scenario
+from tracking_tools.scenarios import Contact, Legs, Scenario, SimulatedRadar
 
 PERIOD, EPOCH = 2.5, 1_700_000_000.0
 SMALL = {
     'sensor.range_sd': 20.0, 'sensor.azimuth_sd': 0.003, 'sensor.range_max': 2e4,
     'motion.horizontal.acceleration_sd': [0.05, 0.5], 'initiation.speed_max': 30.0,
 }  # fmt: skip
-RADAR = Radar(
+RADAR = SimulatedRadar(
     period=PERIOD, rotation='clockwise', range_sd=20.0, azimuth_sd=0.003,
     detection_probability=0.95, range_limits=(500.0, 20_000.0),
 )  # fmt: skip

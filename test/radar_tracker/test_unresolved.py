@@ -19,8 +19,7 @@ from tracking_core.association import JOINT
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values
 from tracking_core.unresolved.resolution import near_pairs, Places
-from tracking_tools.scenarios import Contact, Leg, Legs, Scenario
-from tracking_tools.scenarios import Radar as SimulatedRadar
+from tracking_tools.scenarios import Contact, Leg, Legs, Scenario, SimulatedRadar
 from tracking_tools.scenarios.plots import plots as simulated
 
 CELL = {'sensor.range_resolution': 150.0, 'sensor.azimuth_resolution': 0.02}

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 import pytest
 from scipy.optimize import least_squares
 
-from sonar_tracker.bearing_history import Points
+from sonar_tracker.bearing_history import PastMarks
 from sonar_tracker.ranging_config import RangingConfig
 from sonar_tracker.ranging_fit import fit
 from sonar_tracker.ranging_model import compare, courses, distances, Legs, legs_of
@@ -21,7 +21,7 @@ from tracking_core.linalg import wrap_angle
 from tracking_core.rows import take
 
 
-def points(contacts: int, seed: int = 1, sd: float = 2e-3) -> Points:
+def points(contacts: int, seed: int = 1, sd: float = 2e-3) -> PastMarks:
     """Return marks of contacts round an own ship that turns, every 10 s."""
     rng = np.random.default_rng(seed)
     time = np.arange(0.0, 1500.0, 10.0)
@@ -33,7 +33,7 @@ def points(contacts: int, seed: int = 1, sd: float = 2e-3) -> Points:
         np.arctan2(line[..., 1], line[..., 0]) + sd * rng.standard_normal(line.shape[:2])
     )
     shape = bearing.shape
-    return Points(
+    return PastMarks(
         np.broadcast_to(time, shape), bearing, np.full(shape, sd**-2),
         np.broadcast_to(own, (*shape, 2)), np.full(contacts, 150),
     )  # fmt: skip
@@ -76,7 +76,7 @@ def test_fit_of_a_batch_equals_its_members() -> None:
 def test_fit_ignores_rows_without_weight() -> None:
     """Points beyond the number of a track are no data."""
     heard = points(6)
-    padded = Points(
+    padded = PastMarks(
         np.pad(heard.time, ((0, 0), (0, 9))), np.pad(heard.bearing, ((0, 0), (0, 9))),
         np.pad(heard.weight, ((0, 0), (0, 9))), np.pad(heard.own, ((0, 0), (0, 9), (0, 0))),
         heard.count,
@@ -122,7 +122,7 @@ def test_covariance_is_the_bound() -> None:
     time, own, objects = scene(Case())
     line = objects[:, :, :2] - own[:, :2]
     shape = line.shape[:2]
-    heard = Points(np.broadcast_to(time, shape), np.arctan2(line[..., 1], line[..., 0]),
+    heard = PastMarks(np.broadcast_to(time, shape), np.arctan2(line[..., 1], line[..., 0]),
                    np.full(shape, 1e6), np.broadcast_to(own[:, :2], line.shape),
                    np.full(2, len(time)))  # fmt: skip
     legs = legs_of(heard)

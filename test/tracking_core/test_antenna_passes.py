@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
-from radar_tracker.sensor import Radar as Sensor
+from radar_tracker.sensor import Radar
 from radar_tracker.tracker import RadarTracker
 from studies.scenes import messages
 from tracking_core.batches import Coverage, Plots, Tracks
@@ -21,10 +21,10 @@ from tracking_core.config import with_values
 from tracking_core.platform import Platform
 from tracking_core.rows import take
 from tracking_core.tracker import Tracker
-from tracking_tools.scenarios import Contact, Legs, NORTH, Radar, Scenario
+from tracking_tools.scenarios import Contact, Legs, NORTH, Scenario, SimulatedRadar
 
 PERIOD = 4.0
-RADAR = Radar(
+RADAR = SimulatedRadar(
     period=PERIOD, rotation='clockwise', range_sd=20.0, azimuth_sd=0.003,
     detection_probability=1.0, range_limits=(500.0, 40_000.0),
 )  # fmt: skip
@@ -63,7 +63,9 @@ def around(count: int = 6, speed: float = 150.0, first: int = 1) -> tuple[Contac
     )
 
 
-def followed(radar: Radar, contacts, looks: int, sectors: int = 1, **values) -> RadarTracker:
+def followed(
+    radar: SimulatedRadar, contacts, looks: int, sectors: int = 1, **values
+) -> RadarTracker:
     """Return a tracker after some turns."""
     tracker = RadarTracker(
         with_values(CONFIG, {k.replace('__', '.'): v for k, v in values.items()})
@@ -153,7 +155,7 @@ def test_sectors_can_be_collected_to_turns() -> None:
 def single_plots(sensed, contact: int, values) -> Tracks:
     """Return the track of one contact from scans of one plot each, without any antenna."""
     config = with_values(CONFIG, values)
-    sensor = Sensor(config.sensor, dimensions=2, is_polar=True)
+    sensor = Radar(config.sensor, dimensions=2, is_polar=True)
     tracker = Tracker(build_setup(config, sensor))
     for plots, scan in sensed:
         for row in np.flatnonzero(scan.contact == contact):

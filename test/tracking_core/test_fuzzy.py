@@ -8,7 +8,7 @@ import numpy as np
 from numpy.testing import assert_allclose
 import pytest
 
-from tracking_core.fuzzy import KHACHATUROV, Rules, Sets
+from tracking_core.fuzzy import FuzzySets, KHACHATUROV, Rules
 
 VALUES = np.linspace(0.0, 10.0, 21)
 
@@ -85,10 +85,10 @@ def test_infer_rises_with_the_innovation_now_and_takes_empty_batches() -> None:
 def test_rules_that_do_not_fit_are_refused(table, match: str) -> None:
     """Shape and numbers of the table are checked."""
     with pytest.raises(ValueError, match=match):
-        Rules(Sets((0.0, 1.0)), Sets((0.0, 1.0)), table)
+        Rules(FuzzySets((0.0, 1.0)), FuzzySets((0.0, 1.0)), table)
 
 
 def test_peaks_must_rise() -> None:
     """Sets in order."""
     with pytest.raises(ValueError, match='two or more, rising'):
-        Sets((0.0, 2.0, 2.0))
+        FuzzySets((0.0, 2.0, 2.0))

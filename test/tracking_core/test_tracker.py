@@ -17,9 +17,9 @@ from tracking_core.association import ASSOCIATORS
 from tracking_core.batches import Plots, Tracks
 from tracking_core.config import with_values
 from tracking_core.rows import take
-from tracking_tools.scenarios import Contact, Legs, Radar, Scenario
+from tracking_tools.scenarios import Contact, Legs, Scenario, SimulatedRadar
 
-RADAR = Radar(
+RADAR = SimulatedRadar(
     period=4.0, rotation='staring', range_sd=20.0, azimuth_sd=0.002, detection_probability=0.95,
     range_limits=(500.0, 40_000.0),
 )  # fmt: skip

@@ -19,10 +19,10 @@ from tracking_tools.scenarios import (
     Legs,
     NORTH,
     plots,
-    Radar,
     Sampled,
     Scenario,
     SCENARIOS,
+    SimulatedRadar,
 )
 from tracking_tools.scenarios.passes import place
 from tracking_tools.scenarios.traffic import en_route
@@ -78,7 +78,7 @@ def test_each_turn_passes_a_contact_once(rotation):
 
 def test_moving_platform_sees_contacts_from_where_it_is():
     """Azimuth and range rate are relative to the platform's motion."""
-    radar = Radar(
+    radar = SimulatedRadar(
         period=2.0,
         range_sd=0.0,
         azimuth_sd=0.0,
@@ -105,7 +105,9 @@ def test_detections_are_binomial():
 
 def test_false_plots_are_poisson_and_uniform():
     """Numbers per turn have the mean and variance asked for; range and azimuth are uniform."""
-    radar = Radar(2.0, 50.0, 0.002, clutter_per_turn=30.0, range_limits=(1_000.0, 50_000.0))
+    radar = SimulatedRadar(
+        2.0, 50.0, 0.002, clutter_per_turn=30.0, range_limits=(1_000.0, 50_000.0)
+    )
     scans, columns, contact = played(Scenario(radar, (), 4_000.0))
     numbers = np.array([len(scan.contact) for scan in scans])
     assert len(numbers) == 2_000
@@ -217,7 +219,7 @@ def test_azimuth_coverage_limits_true_and_false_plots():
 @pytest.mark.parametrize(('apart', 'expected'), [(120.0, 1), (180.0, 2)])
 def test_plots_in_one_resolution_cell_become_one(apart, expected):
     """Two contacts closer than the resolution give their mean, across the cut at west too."""
-    radar = Radar(
+    radar = SimulatedRadar(
         4.0,
         range_sd=0.0,
         azimuth_sd=0.0,
@@ -280,8 +282,11 @@ def test_unknown_scenario_names_the_nearest():
     [
         (lambda: Leg(0.0) and Legs((0.0, 0.0, 0.0), 1.0, 0.0, (Leg(0.0),)), 'above 0 s, got 0.0'),
         (lambda: Sampled(np.zeros(1), np.zeros((1, 3))), r'K of 2 and more, got \(1,\)'),
-        (lambda: Radar(0.0, 1.0, 1.0), r'period must be above 0 s, got 0\.0'),
-        (lambda: Radar(1.0, 1.0, 1.0, detection_probability=1.2), r'in \[0, 1\], got 1\.2'),
+        (lambda: SimulatedRadar(0.0, 1.0, 1.0), r'period must be above 0 s, got 0\.0'),
+        (
+            lambda: SimulatedRadar(1.0, 1.0, 1.0, detection_probability=1.2),
+            r'in \[0, 1\], got 1\.2',
+        ),
         (lambda: replace(build('z0'), duration=-1.0), r'duration must be above 0 s, got -1\.0'),
         (lambda: replace(build('z0'), contacts=build('z0').contacts * 2), r'different ids'),
         (lambda: played(build('z0'), sectors=2), 'must be 1 for a staring radar'),

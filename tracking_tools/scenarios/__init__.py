@@ -10,9 +10,9 @@ Read ``trajectory`` and ``legs`` (how contacts move), ``radar`` (what sees them)
 
 from tracking_tools.scenarios.legs import Leg, Legs
 from tracking_tools.scenarios.menu import build, build_any, SCENARIOS, SCENES
-from tracking_tools.scenarios.passes import Contact, find_passes, Truth
+from tracking_tools.scenarios.passes import Contact, find_passes, TrueStates
 from tracking_tools.scenarios.plots import FALSE_PLOT, plots, Scenario, SimulatedScan
-from tracking_tools.scenarios.radar import NORTH, Radar
+from tracking_tools.scenarios.radar import NORTH, SimulatedRadar
 from tracking_tools.scenarios.trajectory import Sampled, Trajectory
 
 __all__ = [
@@ -23,12 +23,12 @@ __all__ = [
     'Contact',
     'Leg',
     'Legs',
-    'Radar',
     'Sampled',
     'Scenario',
+    'SimulatedRadar',
     'SimulatedScan',
     'Trajectory',
-    'Truth',
+    'TrueStates',
     'build',
     'build_any',
     'find_passes',

@@ -17,7 +17,7 @@ from msg_adapters.message_types import MessageTypes
 from tracking_core.batches import Bools, Floats
 from tracking_tools.scenarios.array import LinearArray
 from tracking_tools.scenarios.messages import as_table, EPOCH, Sent, TRUTH
-from tracking_tools.scenarios.passes import Contact, Truth
+from tracking_tools.scenarios.passes import Contact, TrueStates
 from tracking_tools.scenarios.trajectory import Trajectory
 
 BEARINGS, OWNSHIP = 'bearings', 'ownship'
@@ -98,7 +98,7 @@ def _marks(array: LinearArray, output: Floats) -> list[dict[str, Any]]:
 def _truth(watch: Watch, states: list[Any], k: int, epoch: float, types: MessageTypes) -> Any:
     now, there = watch.times[k], np.flatnonzero(_is_there(watch)[k])
     ids = np.array([watch.contacts[i].id for i in there], np.int64)
-    rows = Truth(
+    rows = TrueStates(
         id=ids,
         time=np.full(len(there), now),
         position=np.array([states[i][0][k] for i in there]).reshape(-1, 3),

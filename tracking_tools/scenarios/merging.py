@@ -13,18 +13,18 @@ from scipy.spatial import cKDTree
 
 from tracking_core.batches import Floats, Ints
 from tracking_core.linalg import wrap_angle
-from tracking_tools.scenarios.radar import Radar
+from tracking_tools.scenarios.radar import SimulatedRadar
 
 
 def merge_unresolved(
-    radar: Radar, columns: dict[str, Floats], contact: Ints
+    radar: SimulatedRadar, columns: dict[str, Floats], contact: Ints
 ) -> tuple[dict[str, Floats], Ints]:
     """
     Make one plot of those that the radar cannot tell apart.
 
     Parameters
     ----------
-    radar : Radar
+    radar : SimulatedRadar
         Its ``range_resolution`` and ``azimuth_resolution``; with 0 in either nothing merges.
     columns : dict of (M,) arrays
         Polar plots in order of time.
@@ -56,7 +56,7 @@ def merge_unresolved(
     return {name: column[order] for name, column in merged.items()}, contact[strongest][order]
 
 
-def _unresolved_pairs(radar: Radar, columns: dict[str, Floats]) -> Ints:
+def _unresolved_pairs(radar: SimulatedRadar, columns: dict[str, Floats]) -> Ints:
     """Pairs (K, 2) closer than the resolution in range and azimuth, of one pass."""
     azimuth, time = columns['azimuth'], columns['time']
     cells = np.stack(

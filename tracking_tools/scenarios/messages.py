@@ -11,7 +11,7 @@ import numpy as np
 
 from msg_adapters import table
 from msg_adapters.message_types import MessageTypes
-from tracking_tools.scenarios.passes import Truth
+from tracking_tools.scenarios.passes import TrueStates
 from tracking_tools.scenarios.plots import plots, Scenario, SimulatedScan
 
 FRAME = 'radar'
@@ -67,7 +67,7 @@ def send(
 
 def _truth_of(turn: list[SimulatedScan], epoch: float, types: MessageTypes) -> Sent:
     start, end = turn[0].start, turn[-1].end
-    truth = Truth.joined([scan.truth for scan in turn])
+    truth = TrueStates.joined([scan.truth for scan in turn])
     columns = as_table(truth.columns(), start)
     return Sent(TRUTH, table.from_columns(columns, epoch + start, FRAME, types), end)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.linalg import wrap_angle
-from tracking_tools.scenarios.radar import Radar
+from tracking_tools.scenarios.radar import SimulatedRadar
 from tracking_tools.scenarios.trajectory import Trajectory
 
 # Samples in a turn between which a contact's azimuth is followed.
@@ -33,7 +33,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Truth:
+class TrueStates:
     """True states of contacts, in order of time."""
 
     id: Ints  # (P,)
@@ -44,16 +44,18 @@ class Truth:
     def __len__(self) -> int:
         return len(self.id)
 
-    def rows(self, which: slice | Bools | Ints) -> Truth:
+    def rows(self, which: slice | Bools | Ints) -> TrueStates:
         """Select some of them."""
-        return Truth(self.id[which], self.time[which], self.position[which], self.velocity[which])
+        return TrueStates(
+            self.id[which], self.time[which], self.position[which], self.velocity[which]
+        )
 
     @staticmethod
-    def joined(parts: Sequence[Truth]) -> Truth:
+    def joined(parts: Sequence[TrueStates]) -> TrueStates:
         """One after the other; none make an empty one."""
-        nothing = Truth(np.zeros(0, int), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)))
+        nothing = TrueStates(np.zeros(0, int), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)))
         names = ('id', 'time', 'position', 'velocity')
-        return Truth(
+        return TrueStates(
             *(np.concatenate([getattr(part, n) for part in (*parts, nothing)]) for n in names)
         )
 
@@ -64,13 +66,15 @@ class Truth:
         return {'id': self.id, **dict(zip(names, values, strict=True)), 'time': self.time}
 
 
-def find_passes(radar: Radar, contacts: tuple[Contact, ...], duration: float) -> Truth:
+def find_passes(
+    radar: SimulatedRadar, contacts: tuple[Contact, ...], duration: float
+) -> TrueStates:
     """
     Return the state of every contact each time the antenna passes it, detected or not.
 
     Parameters
     ----------
-    radar : Radar
+    radar : SimulatedRadar
         What sees them.
     contacts : tuple of Contact
         What is there.
@@ -79,16 +83,16 @@ def find_passes(radar: Radar, contacts: tuple[Contact, ...], duration: float) ->
 
     Returns
     -------
-    Truth
+    TrueStates
         Contacts outside the radar's limits are left out.
 
     """
-    every = Truth.joined([_passes_of(radar, contact, duration) for contact in contacts])
+    every = TrueStates.joined([_passes_of(radar, contact, duration) for contact in contacts])
     in_order = every.rows(np.lexsort((every.id, every.time)))
     return in_order.rows(radar.covers(place(radar, in_order)))
 
 
-def place(radar: Radar, truth: Truth) -> dict[str, Floats]:
+def place(radar: SimulatedRadar, truth: TrueStates) -> dict[str, Floats]:
     """
     Where the radar has these contacts, without noise.
 
@@ -112,7 +116,7 @@ def place(radar: Radar, truth: Truth) -> dict[str, Floats]:
     }
 
 
-def _passes_of(radar: Radar, contact: Contact, duration: float) -> Truth:
+def _passes_of(radar: SimulatedRadar, contact: Contact, duration: float) -> TrueStates:
     first, last = max(contact.appear, 0.0), min(contact.disappear, duration)
     if radar.is_staring:
         looks: Floats = radar.period * np.arange(radar.turns(duration), dtype=np.float64)
@@ -120,10 +124,12 @@ def _passes_of(radar: Radar, contact: Contact, duration: float) -> Truth:
     else:
         time = _pass_times(radar, contact.trajectory, first, last)
     position, velocity = contact.trajectory.at(time)
-    return Truth(np.full(len(time), contact.id), time, position, velocity)
+    return TrueStates(np.full(len(time), contact.id), time, position, velocity)
 
 
-def _pass_times(radar: Radar, trajectory: Trajectory, first: float, last: float) -> Floats:
+def _pass_times(
+    radar: SimulatedRadar, trajectory: Trajectory, first: float, last: float
+) -> Floats:
     """
     Solve antenna_azimuth(t) = azimuth(t) for every turn in first <= t < last.
 
@@ -151,7 +157,7 @@ def _pass_times(radar: Radar, trajectory: Trajectory, first: float, last: float)
     return seen
 
 
-def _azimuth(radar: Radar, trajectory: Trajectory, time: Floats) -> tuple[Floats, Floats]:
+def _azimuth(radar: SimulatedRadar, trajectory: Trajectory, time: Floats) -> tuple[Floats, Floats]:
     """
     Azimuth [rad] and its rate [rad/s] as seen from the platform, each (P,).
 

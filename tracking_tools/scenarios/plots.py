@@ -13,8 +13,8 @@ import numpy as np
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.linalg import wrap_angle
 from tracking_tools.scenarios.merging import merge_unresolved
-from tracking_tools.scenarios.passes import Contact, find_passes, place, Truth
-from tracking_tools.scenarios.radar import Radar
+from tracking_tools.scenarios.passes import Contact, find_passes, place, TrueStates
+from tracking_tools.scenarios.radar import SimulatedRadar
 
 FALSE_PLOT = -1
 # Chance of noise alone in one resolution cell; fixes the threshold that every snr lies above.
@@ -27,7 +27,7 @@ Columns = dict[str, Floats]
 class Scenario:
     """A radar, its contacts and for how long [s]."""
 
-    radar: Radar
+    radar: SimulatedRadar
     contacts: tuple[Contact, ...]
     duration: float
     description: str = ''
@@ -53,7 +53,7 @@ class SimulatedScan:
     """Plot columns (M,) by the names of the ``plots`` table; ``time`` [s of the scenario]."""
     contact: Ints
     """Whose plot it is (M,), ``FALSE_PLOT`` for a false one. For scoring only."""
-    truth: Truth
+    truth: TrueStates
     """The contacts passed in this time, detected or not (P,)."""
 
 
@@ -100,7 +100,9 @@ def plots(
         )
 
 
-def _all_plots(scenario: Scenario, truth: Truth, rng: np.random.Generator) -> tuple[Columns, Ints]:
+def _all_plots(
+    scenario: Scenario, truth: TrueStates, rng: np.random.Generator
+) -> tuple[Columns, Ints]:
     """All plots of the scenario in order of time, and whose they are."""
     radar = scenario.radar
     seen, detected = _true_plots(radar, truth, rng)
@@ -113,7 +115,9 @@ def _all_plots(scenario: Scenario, truth: Truth, rng: np.random.Generator) -> tu
     return _as_measured(radar, columns, rng), contact
 
 
-def _true_plots(radar: Radar, truth: Truth, rng: np.random.Generator) -> tuple[Columns, Bools]:
+def _true_plots(
+    radar: SimulatedRadar, truth: TrueStates, rng: np.random.Generator
+) -> tuple[Columns, Bools]:
     detected = rng.random(len(truth)) < radar.detection_probability
     noise = rng.standard_normal((len(truth), 4))[detected].T
     power = rng.exponential(size=len(truth))[detected]
@@ -133,7 +137,7 @@ def _true_plots(radar: Radar, truth: Truth, rng: np.random.Generator) -> tuple[C
     return columns, detected
 
 
-def _false_plots(radar: Radar, duration: float, rng: np.random.Generator) -> Columns:
+def _false_plots(radar: SimulatedRadar, duration: float, rng: np.random.Generator) -> Columns:
     """Poisson in each turn, uniform in the measured coordinates: equal false alarms per cell."""
     turns = radar.turns(duration)
     turn = np.repeat(np.arange(turns), rng.poisson(radar.clutter_per_turn, size=turns))
@@ -151,7 +155,7 @@ def _false_plots(radar: Radar, duration: float, rng: np.random.Generator) -> Col
     }
 
 
-def _as_measured(radar: Radar, columns: Columns, rng: np.random.Generator) -> Columns:
+def _as_measured(radar: SimulatedRadar, columns: Columns, rng: np.random.Generator) -> Columns:
     """Only what this radar reports, in the order of the table."""
     unmeasured = set()
     if radar.elevation_sd is None:

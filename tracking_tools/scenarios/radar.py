@@ -21,7 +21,7 @@ AT_ORIGIN = Legs(position=(0.0, 0.0, 0.0), speed=0.0, course=0.0)
 
 
 @dataclass(frozen=True)
-class Radar:
+class SimulatedRadar:
     """
     A radar: turning (``clockwise``, ``anticlockwise``) or ``staring``.
 
@@ -65,10 +65,11 @@ class Radar:
 
     def __post_init__(self) -> None:
         if not self.period > 0.0:
-            raise ValueError(f'Radar.period must be above 0 s, got {self.period}')
+            raise ValueError(f'SimulatedRadar.period must be above 0 s, got {self.period}')
         if not 0.0 <= self.detection_probability <= 1.0:
             raise ValueError(
-                f'Radar.detection_probability must be in [0, 1], got {self.detection_probability}'
+                'SimulatedRadar.detection_probability must be in [0, 1], '
+                f'got {self.detection_probability}'
             )
 
     @property

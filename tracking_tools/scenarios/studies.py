@@ -11,7 +11,7 @@ import math
 from tracking_tools.scenarios.legs import Leg, Legs
 from tracking_tools.scenarios.passes import Contact
 from tracking_tools.scenarios.plots import Scenario
-from tracking_tools.scenarios.radar import Radar
+from tracking_tools.scenarios.radar import SimulatedRadar
 
 
 def two_mode_path() -> Legs:
@@ -32,7 +32,7 @@ def two_mode_path() -> Legs:
 
 def two_mode() -> Scenario:
     """One manoeuvring aircraft, Cartesian plots, no misses: for runs of a filter alone."""
-    radar = Radar(
+    radar = SimulatedRadar(
         period=5.0,
         rotation='staring',
         range_sd=0.0,
@@ -47,7 +47,7 @@ def crossing() -> Scenario:
     """Two manoeuvring aircraft on mirrored paths, 100 scans, all of a scan at one time."""
     path = two_mode_path()
     limits = (1_000.0, 40_000.0)
-    radar = Radar(
+    radar = SimulatedRadar(
         period=5.0,
         rotation='staring',
         range_sd=10.0,
@@ -90,7 +90,7 @@ def z0_path() -> Legs:
 
 def z0() -> Scenario:
     """Scenario Z-0 of [ZHUK09]: a fast aircraft far away, 76 contacts 10 s apart."""
-    radar = Radar(
+    radar = SimulatedRadar(
         period=10.0,
         rotation='staring',
         range_sd=300.0,

@@ -9,7 +9,7 @@ import math
 from tracking_tools.scenarios.legs import Leg, Legs
 from tracking_tools.scenarios.passes import Contact
 from tracking_tools.scenarios.plots import Scenario
-from tracking_tools.scenarios.radar import Radar
+from tracking_tools.scenarios.radar import SimulatedRadar
 
 
 def terminal() -> Scenario:
@@ -28,7 +28,7 @@ def terminal() -> Scenario:
         Contact(30 + k, _departure(math.radians(40.0 + 85.0 * k)), appear=150.0 * k)
         for k in range(4)
     ]
-    radar = Radar(
+    radar = SimulatedRadar(
         period=4.0,
         range_sd=50.0,
         azimuth_sd=math.radians(0.1),

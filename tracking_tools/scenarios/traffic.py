@@ -11,7 +11,7 @@ import numpy as np
 from tracking_tools.scenarios.legs import Leg, Legs
 from tracking_tools.scenarios.passes import Contact
 from tracking_tools.scenarios.plots import Scenario
-from tracking_tools.scenarios.radar import NORTH, Radar
+from tracking_tools.scenarios.radar import NORTH, SimulatedRadar
 from tracking_tools.scenarios.terminal import racetrack
 
 _EN_ROUTE_SEED = 20_240_523
@@ -53,7 +53,7 @@ def en_route(count: int = 60, duration: float = 900.0) -> Scenario:
         )
         for k in range(count)
     )
-    radar = Radar(
+    radar = SimulatedRadar(
         period=8.0,
         range_sd=60.0,
         azimuth_sd=math.radians(0.1),
@@ -89,7 +89,7 @@ def formation() -> Scenario:
         )
         for k, rate in enumerate(breaks)
     )
-    radar = Radar(
+    radar = SimulatedRadar(
         period=4.0,
         range_sd=30.0,
         azimuth_sd=math.radians(0.08),
@@ -105,7 +105,7 @@ def turns() -> Scenario:
     """Six aircraft on six bearings, each with its own turn rate: 1 to 12 deg/s, left and right."""
     rates = (1.0, -2.0, 3.0, -5.0, 8.0, -12.0)
     contacts = tuple(_turner(k + 1, rate) for k, rate in enumerate(rates))
-    radar = Radar(
+    radar = SimulatedRadar(
         period=4.0,
         range_sd=40.0,
         azimuth_sd=math.radians(0.08),
@@ -145,7 +145,7 @@ def seam() -> Scenario:
         Contact(5, racetrack((-1_500.0, 20_000.0, 0.0), 0.0, 110.0)),
         Contact(6, racetrack((1_500.0, 21_500.0, 0.0), math.pi, 110.0)),
     )
-    radar = Radar(
+    radar = SimulatedRadar(
         period=4.0,
         range_sd=40.0,
         azimuth_sd=math.radians(0.1),

@@ -67,7 +67,7 @@ def join_rows(parts: Sequence[TrackRows]) -> TrackRows:
 
 
 @dataclass(frozen=True)
-class Places:
+class TruePlaces:
     """Where one contact was at the times asked for."""
 
     position: Floats  # (N, d) [m]
@@ -98,7 +98,7 @@ class Truth:
         """Return the samples of one contact."""
         return take(self, slice(*np.searchsorted(self.id, [contact, contact + 1])))
 
-    def at(self, times: Floats) -> Places:
+    def at(self, times: Floats) -> TruePlaces:
         """
         Return where a single contact was; beyond its samples it goes straight on.
 
@@ -116,7 +116,7 @@ class Truth:
         velocity = v0 + s * (v1 - v0)
         position += velocity * (times - inner)[:, None]
         nearer = np.where(s[:, 0] < 0.5, before, after)
-        return Places(position, velocity, self.turning[nearer])
+        return TruePlaces(position, velocity, self.turning[nearer])
 
 
 @dataclass(frozen=True)
