@@ -9,11 +9,16 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
-SHIPPED = PathJoinSubstitution([FindPackageShare('contact_tracking'), 'config', 'radar.yaml'])
+SHARE = FindPackageShare('contact_tracking')
 TOPICS = ('plots', 'ownship')
 # Name, default and meaning.
 ARGUMENTS = (
-    ('params_file', SHIPPED, 'parameter file of the node'),
+    ('preset', 'radar.yaml', 'parameter file among those shipped'),
+    (
+        'params_file',
+        PathJoinSubstitution([SHARE, 'config', LaunchConfiguration('preset')]),
+        'parameter file of the node',
+    ),
     ('namespace', '', 'namespace of the node and its topics'),
     ('plots', 'plots', 'topic with the radar plots'),
     ('ownship', 'ownship', 'topic with the odometry of the platform, if it moves'),

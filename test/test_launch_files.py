@@ -224,6 +224,17 @@ def test_default_files_are_shipped(
         assert file in {Path(path).name for path in shipped}
 
 
+@pytest.mark.parametrize('sensor', ['radar', 'sonar', 'replay'])
+def test_preset_is_a_name_without_a_path(sensor: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The file is found wherever the package is installed; one of the user's goes before it."""
+    entities = _load(ROOT / 'launch' / f'{sensor}.launch.py', monkeypatch)
+    given = _values(entities, preset='marine_radar.yaml')
+    assert _text(given['params_file'], given) == 'share/contact_tracking/config/marine_radar.yaml'
+    (node,) = _trackers(entities)
+    given = _values(entities, preset='marine_radar.yaml', params_file='/my/radar.yaml')
+    assert _text(node.parameters[0], given) == '/my/radar.yaml'
+
+
 def test_switches_arrive_as_booleans(entities: list[Any]) -> None:
     """Launch arguments are text; the node declares these two as booleans."""
     for node in _trackers(entities):
