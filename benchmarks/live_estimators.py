@@ -25,8 +25,8 @@ from benchmarks.recordings import air_scene, data_folder, PROJECT, Recording
 from msg_adapters import table
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.track_rows import CONFIRMED
-from radar_tracker.estimator_config import RADAR_ESTIMATORS
 from tracking_core.batches import Plots
+from tracking_core.estimators import ESTIMATORS
 from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.demo_player import play
 from tracking_tools.node_process import NodeFailed
@@ -133,8 +133,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     scene = air_scene(given.data).part(0, given.turns)
     rows, poor = [], []
     with TemporaryDirectory() as folder:
-        for number, name in enumerate(RADAR_ESTIMATORS, start=1):
-            print(f'{name}, {number} of {len(RADAR_ESTIMATORS)}', flush=True)
+        for number, name in enumerate(ESTIMATORS, start=1):
+            print(f'{name}, {number} of {len(ESTIMATORS)}', flush=True)
             parameters = Path(folder, f'{name}.yaml')
             write_parameters(scene.preset, name, parameters)
             start = live(scene.part(0, 1), parameters, Path(folder, f'{name}_start'))

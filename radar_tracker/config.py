@@ -9,10 +9,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from msg_adapters.azimuths import angle_unit, azimuth_convention, azimuth_reference
-from radar_tracker.estimator_config import AlphaBetaConfig, RADAR_ESTIMATORS
+from radar_tracker.estimator_config import AlphaBetaConfig
 from radar_tracker.motion_config import MotionConfig
 from tracking_core.association import ASSOCIATORS, JOINT
 from tracking_core.config import parameter, validate
+from tracking_core.estimators import ESTIMATORS
 from tracking_core.lifecycle_config import (
     ExistenceConfig,
     GateConfig,
@@ -157,7 +158,7 @@ class RadarTrackerConfig:
     merge: MergeConfig = field(default_factory=MergeConfig)
     unresolved: UnresolvedConfig = field(default_factory=UnresolvedConfig)
     estimator: str = parameter(
-        'markov_jump', unit='', choices=RADAR_ESTIMATORS, doc='filter of every track'
+        'markov_jump', unit='', choices=tuple(ESTIMATORS), doc='filter of every track'
     )
     output: str = parameter(
         'mmse', unit='', choices=('mmse', 'map'), live=True,

@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which parameters have the estimators with given gains, and which estimators are there?"""
+"""Which parameters have the estimators with given gains?"""
 
 from __future__ import annotations
 
@@ -9,11 +9,6 @@ from dataclasses import dataclass, field
 from tracking_core.alpha_beta import READINGS
 from tracking_core.config import parameter, validate
 from tracking_core.fuzzy import FuzzySets, KHACHATUROV, Rules
-
-RADAR_ESTIMATORS = (
-    'markov_jump', 'markov_jump_joint', 'imm_alpha_beta', 'adaptive_alpha_beta',
-    'fuzzy_alpha_beta', 'two_point', 'alpha_beta',
-)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
-from radar_tracker.estimator_config import RADAR_ESTIMATORS
+from tracking_core.estimators import ESTIMATORS
 from tracking_tools.bags import BagWriter, open_bag
 from tracking_tools.demo_player import play
 from tracking_tools.held import find_holds
@@ -31,7 +31,7 @@ def recording(tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize('name', RADAR_ESTIMATORS)
+@pytest.mark.parametrize('name', ESTIMATORS)
 def test_live_node_holds_real_flights_with_every_estimator(name, recording, tmp_path):
     """Every message is answered, the node ends with 0, and aircraft are held 90 % of the time."""
     values = read_parameter_file(ROOT / 'config' / 'terminal_radar.yaml', '/radar_tracker')

@@ -14,8 +14,8 @@ import pytest
 from benchmarks.real_data import judge, preset, run
 from benchmarks.recordings import air_scene, data_folder
 from msg_adapters.tracks import kinematics, track_columns
+from radar_tracker.build import build_planes
 from radar_tracker.config import RadarTrackerConfig
-from radar_tracker.estimator_config import RADAR_ESTIMATORS
 from radar_tracker.tracker import RadarTracker
 from studies.scenes import messages
 from tracking_core.batches import Plots
@@ -28,9 +28,11 @@ PERIOD = 4.0
 every_estimator = pytest.mark.parametrize('name', ESTIMATORS)
 
 
-def test_parameter_offers_the_menu() -> None:
-    """The choices of `estimator` are the estimators that there are."""
-    assert tuple(ESTIMATORS) == RADAR_ESTIMATORS
+@every_estimator
+def test_choice_is_built(name: str) -> None:
+    """An estimator of the menu that nobody builds is not silently another one."""
+    (plane, *_) = build_planes(RadarTrackerConfig(estimator=name), 3)
+    assert type(plane.estimator) is ESTIMATORS[name]
 
 
 @every_estimator
