@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
-from msg_adapters.diagnostics import InputCount
+from msg_adapters.input_count import InputCount
 from msg_adapters.throttle import Throttle
 
 

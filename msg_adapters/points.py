@@ -9,24 +9,20 @@ from typing import Any
 import numpy as np
 
 from msg_adapters.bad_message import BadMessage
-from msg_adapters.frames import TrackingFrame
 from tracking_core.batches import Floats
 
 
-def to_position(
-    msg: Any, frame: TrackingFrame, sensor: tuple[float, float, float], reach: float
-) -> Floats:
+def to_position(msg: Any, sensor: tuple[float, float, float], reach: float) -> Floats:
     """
-    Return the position (3,) [m] of a PointStamped in the tracking frame.
+    Return the position (3,) [m] of a PointStamped, in the frame of its header.
 
     Raises
     ------
     BadMessage
-        For another frame, or a coordinate that is no number or beyond `reach` [m] of the sensor's.
+        For a coordinate that is no number or beyond `reach` [m] of the sensor's, in that frame.
 
     """
     position = np.array([msg.point.x, msg.point.y, msg.point.z])
-    frame.check_point(msg.header.frame_id.lstrip('/'))
     if not (np.abs(position - sensor) <= reach).all():
         raise BadMessage(
             'bad point', f'point is {position}, farther than {reach:g} m from the sensor'

@@ -12,9 +12,9 @@ from __future__ import annotations
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage
-from msg_adapters.diagnostics import InputCount
 from msg_adapters.frames import TrackingFrame
 from msg_adapters.history import History
+from msg_adapters.input_count import InputCount
 from msg_adapters.instrument import Instrument
 from msg_adapters.late import Follower
 from msg_adapters.ledger import Ledger, Log
@@ -179,9 +179,9 @@ class Session:
             tracker, topic = self.instrument.tracker, self.instrument.topic
             if self.stamp is None or not tracker.is_ready:
                 raise BadMessage('no scan yet', f'no {topic} have come yet')
-            place, reach = tracker.sensor_position, self.instrument.reach
-            position, most = to_position(msg, self.frame, place, reach), tracker.config.max_tracks
-            if len(self.tracks) >= most:
+            self.frame.check_point(msg.header.frame_id.lstrip('/'))
+            position = to_position(msg, tracker.sensor_position, self.instrument.reach)
+            if len(self.tracks) >= (most := tracker.config.max_tracks):
                 raise BadMessage('no room', f'there are {most} tracks already (max_tracks)')
             track_id = tracker.start_track(position, seconds(self.stamp))
             self._follower.history.close()

@@ -9,7 +9,7 @@ import sys
 
 from tqdm import tqdm
 
-from msg_adapters.diagnostics import InputCount
+from msg_adapters.input_count import InputCount
 from tracking_core.batches import Tracks
 from tracking_tools.bags import NANOSECONDS
 

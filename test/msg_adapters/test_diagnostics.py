@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Counts are right and readable."""
 
-from msg_adapters.diagnostics import InputCount, to_diagnostics
+from msg_adapters.diagnostics import to_diagnostics
+from msg_adapters.input_count import InputCount
 
 
 def test_gaps_of_one_publisher_are_losses():
