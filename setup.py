@@ -27,6 +27,8 @@ setup(
                 'radar_tracker',
                 'sonar_tracker',
                 'tracking_core',
+                'tracking_node',
+                'tracking_session',
                 'tracking_tools',
             )
             for below in ('', '.*')

@@ -27,12 +27,12 @@ from sensor_msgs.msg import PointCloud2
 from benchmarks.machine import machine
 from benchmarks.processes import cpu_time
 from msg_adapters.message_types import rclpy_types
-from msg_adapters.session import Session
 from msg_adapters.table import from_columns
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
 from tracking_core.batches import Floats
+from tracking_session.session import Session
 from tracking_tools.arguments import count
 from tracking_tools.testing import NodeProcess, private_domain, python_node, TrackerProbe
 

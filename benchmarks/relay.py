@@ -8,7 +8,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import PointCloud2
 
-from msg_adapters.node import run, subscribe
+from tracking_node.node import run, subscribe
 
 
 class Relay(Node):

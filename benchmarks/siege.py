@@ -29,9 +29,9 @@ from benchmarks.healthy_scenes import ASTRAY, HEALTHY, PERIOD, START, TRUE
 from benchmarks.hostile_messages import odd_odometry, odd_point, spoil
 from benchmarks.processes import Memory
 from msg_adapters.message_types import rosbags_types, seconds
-from msg_adapters.session import Session
 from msg_adapters.table import from_columns, to_columns
 from tracking_core.linalg import is_positive_definite
+from tracking_session.session import Session
 from tracking_tools.parameter_file import configure
 from tracking_tools.sensors import SENSORS
 

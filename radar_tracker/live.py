@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from msg_adapters.live.node import TrackerNode
-from msg_adapters.node import run
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
+from tracking_node.node import run
+from tracking_node.tracker_node import TrackerNode
 
 
 def make_node() -> TrackerNode:

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from msg_adapters.snapshots.form import check_form
 from radar_tracker.build import build_setup
 from radar_tracker.sensor import Radar
 from radar_tracker.tracker import RadarTracker
 from tracking_core.tracker import Tracker
+from tracking_session.snapshots.form import check_form
 
 PLAIN = ('is_known', 'farthest', 'coverage', 'state')
 

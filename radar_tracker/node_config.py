@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from msg_adapters.node_config import drawing_rate, field_name, NodeConfig
 from tracking_core.config import parameter, validate
+from tracking_session.node_config import drawing_rate, field_name, NodeConfig
 
 
 @dataclass(frozen=True)

@@ -10,17 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from msg_adapters.axes import check_axes, check_places, Warn
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.bodies import Bodies
-from msg_adapters.frames import TrackingFrame
-from msg_adapters.ledger import Log
 from msg_adapters.markers import to_markers
 from msg_adapters.message_types import MessageTypes
-from msg_adapters.node_config import NodeConfig
 from msg_adapters.plots import to_plots
 from msg_adapters.reading import Reading
-from msg_adapters.session import Session
 from msg_adapters.tracks import from_tracks, kinematics, to_bodies
 from msg_adapters.trails import Trails
 from radar_tracker.config import MountConfig, RadarTrackerConfig
@@ -30,6 +25,11 @@ from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Floats, Plots, Tracks
 from tracking_core.platform import Platform, pose_at
 from tracking_core.rows import take
+from tracking_session.axes import check_axes, check_places, Warn
+from tracking_session.frames import TrackingFrame
+from tracking_session.ledger import Log
+from tracking_session.node_config import NodeConfig
+from tracking_session.session import Session
 
 
 def radar_session(

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from msg_adapters.live.node import TrackerNode
-from msg_adapters.node import run
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
+from tracking_node.node import run
+from tracking_node.tracker_node import TrackerNode
 
 
 def make_node() -> TrackerNode:

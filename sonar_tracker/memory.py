@@ -7,12 +7,12 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from msg_adapters.snapshots.form import check_form
 from sonar_tracker.build import build_setup
 from sonar_tracker.ranging import Courses
 from sonar_tracker.sensor import Sonar
 from sonar_tracker.tracker import SonarTracker
 from tracking_core.tracker import Tracker
+from tracking_session.snapshots.form import check_form
 
 
 def remember(tracker: SonarTracker) -> dict[str, Any]:

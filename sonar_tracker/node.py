@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 import sys
 
-from msg_adapters.start import start
+from tracking_node.start import start
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -10,23 +10,23 @@ from typing import Any
 
 import numpy as np
 
-from msg_adapters.axes import check_axes, Warn
 from msg_adapters.bearing_tracks import from_bearing_tracks, located_bodies
 from msg_adapters.bearings import to_bearings
 from msg_adapters.bodies import Bodies
 from msg_adapters.fans import Fans, to_fan_markers
-from msg_adapters.frames import TrackingFrame
-from msg_adapters.ledger import Log
 from msg_adapters.message_types import MessageTypes
-from msg_adapters.node_config import NodeConfig
 from msg_adapters.reading import Reading
-from msg_adapters.session import Session
 from sonar_tracker.config import MountConfig, SonarTrackerConfig
 from sonar_tracker.memory import recall, remember
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings, Floats, Tracks
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
+from tracking_session.axes import check_axes, Warn
+from tracking_session.frames import TrackingFrame
+from tracking_session.ledger import Log
+from tracking_session.node_config import NodeConfig
+from tracking_session.session import Session
 
 
 def sonar_session(

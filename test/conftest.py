@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""What every test starts from: a strict, private ROS and no display."""
+"""What every test starts from: a strict, private ROS, its message classes, and no display."""
 
 from collections.abc import Iterator
 import os
@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, settings
 import pytest
 import setuptools
 
+from msg_adapters.message_types import MessageTypes, rclpy_types, rosbags_types
 from tracking_tools.node_process import private_domain
 
 # Before the first message class is imported: without it a wrong type is sent as garbage.
@@ -58,3 +59,13 @@ def setup_arguments() -> dict[str, Any]:
         patch.setattr(setuptools, 'setup', arguments.update)
         runpy.run_path('setup.py')
     return arguments
+
+
+@pytest.fixture(params=['rclpy', 'rosbags'])
+def types(request: pytest.FixtureRequest) -> MessageTypes:
+    """Run the test with the classes of rclpy, then with those of rosbags."""
+    if request.param == 'rclpy':
+        pytest.importorskip('sensor_msgs.msg')
+        return rclpy_types()
+    pytest.importorskip('rosbags')
+    return rosbags_types()

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from msg_adapters import fans, markers
-from msg_adapters.live.health import Health
 from msg_adapters.message_types import rclpy_types
 from msg_adapters.table import from_columns, to_columns
 from radar_tracker.config import RadarTrackerConfig
@@ -20,6 +19,7 @@ from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
 from tracking_core.config import with_values
+from tracking_node.health import Health
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / 'docs'

@@ -16,7 +16,10 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 NAME = 'contact_tracking'
-PACKAGES = ('msg_adapters', 'radar_tracker', 'sonar_tracker', 'tracking_core', 'tracking_tools')
+PACKAGES = (
+    'msg_adapters', 'radar_tracker', 'sonar_tracker', 'tracking_core', 'tracking_node',
+    'tracking_session', 'tracking_tools',
+)  # fmt: skip
 HEADER = ['# Copyright 2026 the contact_tracking authors', '# SPDX-License-Identifier: Apache-2.0']
 # path: the reason why 200 lines are not enough
 LONG_FILES = {'tracking_core/batches.py': 'the glossary: every batch in one place'}

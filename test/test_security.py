@@ -16,7 +16,10 @@ from msg_adapters.bad_message import BadMessage
 from msg_adapters.table import to_columns
 
 ROOT = Path(__file__).parent.parent
-PACKAGES = ('msg_adapters', 'radar_tracker', 'sonar_tracker', 'tracking_core', 'tracking_tools')
+PACKAGES = (
+    'msg_adapters', 'radar_tracker', 'sonar_tracker', 'tracking_core', 'tracking_node',
+    'tracking_session', 'tracking_tools',
+)  # fmt: skip
 POLICY = ROOT / 'policies' / 'contact_tracking.policy.xml'
 # Modules that run or build what a file says; ruff's rules S see most of the other ways.
 CODE_LOADERS = {'pickle', 'marshal', 'shelve', 'dill', 'joblib', 'cloudpickle', 'code'}

@@ -10,8 +10,8 @@ from typing import Any, TypeVar
 
 import yaml
 
-from msg_adapters.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
 from tracking_core.config import hint, parameters, with_values
+from tracking_node.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
 
 Configs = TypeVar('Configs', bound=tuple[Any, ...])
 

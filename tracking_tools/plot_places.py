@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 
 from msg_adapters.bad_message import BadMessage
-from msg_adapters.frames import TrackingFrame
 from msg_adapters.plots import to_plots
 from msg_adapters.table import Columns
 from radar_tracker.config import MountConfig, SensorConfig
 from radar_tracker.mounting import in_sensor_axes, levelled, sensor_pose
 from tracking_core.batches import Floats, Plots
 from tracking_core.platform import Platform, pose_at
+from tracking_session.frames import TrackingFrame
 from tracking_tools.bags import MAX_ROWS
 
 

@@ -21,8 +21,8 @@ from rosbags.highlevel import AnyReader
 from tqdm import tqdm
 
 from msg_adapters.message_types import rosbags_types
-from msg_adapters.parameter_blocks import BadParameterFile
-from msg_adapters.session import Session
+from tracking_node.parameter_blocks import BadParameterFile
+from tracking_session.session import Session
 from tracking_tools.arguments import file_to_write
 from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, open_bag, POINT_CLOUD, UNREADABLE
 from tracking_tools.parameter_file import configure, parse_value, read_parameter_file

@@ -13,7 +13,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.interfaces import Connection
 
 from msg_adapters.kinds.menu import check_type
-from msg_adapters.session import Session
+from tracking_session.session import Session
 from tracking_tools.bags import absolute, BadBag
 from tracking_tools.sensors import SensorKind, SENSORS
 

@@ -9,8 +9,8 @@ import sys
 
 from tqdm import tqdm
 
-from msg_adapters.input_count import InputCount
 from tracking_core.batches import Tracks
+from tracking_session.input_count import InputCount
 from tracking_tools.bags import NANOSECONDS
 
 

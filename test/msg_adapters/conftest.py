@@ -1,22 +1,11 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Both families of message classes, and tracks to put into messages."""
+"""Tracks to put into messages."""
 
 import numpy as np
 import pytest
 
-from msg_adapters.message_types import rclpy_types, rosbags_types
 from tracking_core.batches import Mixture, Tracks
-
-
-@pytest.fixture(params=['rclpy', 'rosbags'])
-def types(request):
-    """Run the test with the classes of rclpy, then with those of rosbags."""
-    if request.param == 'rclpy':
-        pytest.importorskip('sensor_msgs.msg')
-        return rclpy_types()
-    pytest.importorskip('rosbags')
-    return rosbags_types()
 
 
 def _covariances(rng, rows, modes, size):

@@ -23,7 +23,7 @@ pytest.importorskip('rosbags')
 from benchmarks.healthy_scenes import contacts, marks, START
 from benchmarks.hostile_messages import spoil
 from benchmarks.processes import own_memory
-from benchmarks.siege import Siege, TYPES
+from benchmarks.siege import TYPES
 
 MILLION = 1_000_000
 ROWS = 20_000
@@ -134,14 +134,3 @@ def test_bad_message_is_shown_as_one_short_line():
     text = str(BadMessage('bad field', 'field \x1b[31m\n' + 1_000_000 * 'x'))
     assert text.isprintable()
     assert len(text) < LONGEST + 20
-
-
-def test_acquire_keeps_max_tracks():
-    """Points do not make more tracks than there may be."""
-    siege = Siege('radar', np.random.default_rng(1), {'max_tracks': 10})
-    for number in range(30):
-        point = SimpleNamespace(x=1e3 * number, y=1e3, z=0.0)
-        header = SimpleNamespace(frame_id='radar')
-        siege.session.acquire(SimpleNamespace(header=header, point=point))
-    assert len(siege.session.tracks) == 10
-    assert siege.session.counts['acquire'].refused['no room'] == 23

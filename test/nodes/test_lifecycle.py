@@ -23,8 +23,8 @@ CYCLE = [
 ]
 FAULTY = """
 import sys
-from msg_adapters.live.node import TrackerNode
-from msg_adapters.node import run
+from tracking_node.tracker_node import TrackerNode
+from tracking_node.node import run
 from {node} import live, session
 
 tries = iter([1])

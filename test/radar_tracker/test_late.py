@@ -10,7 +10,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 import pytest
 
 from msg_adapters.message_types import rosbags_types, seconds
-from msg_adapters.node_config import LateConfig
 from msg_adapters.table import from_columns, to_columns
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
@@ -19,6 +18,7 @@ from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
 from tracking_core.config import with_values
+from tracking_session.node_config import LateConfig
 from tracking_tools.scenarios import build
 from tracking_tools.scenarios.messages import send
 

@@ -10,7 +10,6 @@ import pytest
 
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.message_types import rosbags_types
-from msg_adapters.snapshots.file import read_snapshot, write_snapshot
 from msg_adapters.table import from_columns, to_columns
 from radar_tracker.config import RadarTrackerConfig, ScanConfig
 from radar_tracker.node_config import radar_node_config
@@ -19,6 +18,7 @@ from radar_tracker.session import radar_session
 from studies.scenes import messages
 from tracking_core.batches import Plots
 from tracking_core.config import with_values
+from tracking_session.snapshots.file import read_snapshot, write_snapshot
 from tracking_tools.scenarios import Contact, Legs, Scenario, SimulatedRadar
 
 PERIOD, EPOCH = 2.5, 1_700_000_000.0

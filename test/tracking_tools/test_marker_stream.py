@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from msg_adapters.live.display import Display
 from msg_adapters.message_types import rosbags_types
+from tracking_node.display import Display
 from tracking_tools.replay import read_configs
 from tracking_tools.screen import Screen
 from tracking_tools.sensors import SENSORS

@@ -12,8 +12,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from msg_adapters.parameter_blocks import BadParameterFile
 from tracking_core.config import parameters
+from tracking_node.parameter_blocks import BadParameterFile
 from tracking_tools.evaluation import Yardstick
 from tracking_tools.parameter_file import configure, parse_value
 from tracking_tools.scenarios import build_any, SCENES

@@ -1,0 +1,59 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Check what the diagnostics say of an input that has fallen silent."""
+
+from dataclasses import replace
+import logging
+
+import pytest
+
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.node_config import radar_node_config
+from radar_tracker.session import radar_session
+from tracking_node.health import Health
+
+
+@pytest.fixture
+def session(types):
+    """Return a session of a radar whose own ship may be silent for eight seconds."""
+    node_config = replace(radar_node_config(), ownship_timeout=8.0)
+    return radar_session(RadarTrackerConfig(), node_config, types, logging.getLogger('health'))
+
+
+def test_level_says_for_how_long_no_plots_have_come(session):
+    """Since the last ones, or since the node became active."""
+    health = Health(started=100.0)
+    assert health.level(session, 104.0) == ('OK', 'tracking')
+    assert health.level(session, 112.0) == ('WARN', 'no plots for 12 s')
+    health.plots_at = 111.0
+    assert health.level(session, 112.0) == ('OK', 'tracking')
+    assert health.level(session, 123.2) == ('WARN', 'no plots for 12 s')
+
+
+def test_level_says_for_how_long_own_ship_is_silent_where_it_is_needed(session):
+    """A sensor that stands still has none; one that moves cannot do without."""
+    health = Health(started=0.0, plots_at=99.0, ownship_at=85.0)
+    assert health.level(session, 100.0) == ('OK', 'tracking')
+    session.frame.check_ownship('odom', 0.0)
+    session.frame.check_plots('radar')
+    assert health.level(session, 100.0) == ('WARN', 'no ownship for 15 s')
+    health.ownship_at = 93.0
+    assert health.level(session, 100.0) == ('OK', 'tracking')
+
+
+def test_level_names_all_that_is_wrong_until_it_was_told(session):
+    """What was shed, who else publishes, what was refused and why: the worst first."""
+    health = Health(started=0.0, plots_at=99.0)
+    session.counts['plots'].received(1, 2)
+    session.counts['plots'].refused['stamp not newer'] += 1
+    session.counts['ownship'].refused['own ship leaps'] += 1
+    session.ledger.shed('plots')
+    told = (
+        'too slow: only the newest plots are used; several publishers on plots; '
+        'ownship refused: own ship leaps; plots refused: stamp not newer'
+    )
+    assert health.level(session, 100.0) == ('WARN', told)
+    health.told(session)
+    assert health.level(session, 100.0) == ('WARN', 'several publishers on plots')
+    session.counts['plots'].received(2, 1)
+    assert health.level(session, 100.0) == ('OK', 'tracking')

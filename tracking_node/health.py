@@ -1,0 +1,113 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""How well a tracker is doing, in the words and numbers of /diagnostics."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import chain
+import math
+import time
+
+from tracking_session.session import Session
+
+NEAR_CAPACITY = 0.9  # of max_tracks
+QUIET = 5.0  # s without plots that are worth a warning
+
+
+@dataclass
+class Health:
+    """Times of the last step and of the last messages, and what was complained about so far."""
+
+    started: float  # when the node became active, by a clock that never goes back [s]
+    step_time: float = 0.0  # of the last plots message [s]
+    step_cpu: float = 0.0  # the same of the processor [s]
+    latency: float = math.nan  # from arrival to tracks [s]
+    plots_at: float = -math.inf  # when the last plots came, by the same clock [s]
+    ownship_at: float = -math.inf
+    _told: Counter[str] = field(default_factory=Counter)  # complaints up to the last report
+    _begun: tuple[float, float] = (0.0, 0.0)
+
+    def step_begins(self) -> None:
+        """Start both clocks of a step."""
+        self._begun = time.perf_counter(), time.thread_time()
+
+    def step_ends(self) -> None:
+        """Take note of how long it took."""
+        begun, used = self._begun
+        self.step_time, self.step_cpu = time.perf_counter() - begun, time.thread_time() - used
+
+    def level(self, session: Session, now: float) -> tuple[str, str]:
+        """Return level and message: all that is wrong at the moment, the worst first."""
+        wrong = '; '.join(chain(self._silences(session, now), self._warnings(session)))
+        return ('WARN', wrong) if wrong else ('OK', 'tracking')
+
+    def _silences(self, session: Session, now: float) -> Iterator[str]:
+        """Yield which inputs have stopped coming."""
+        silent = now - max(self.plots_at, self.started)
+        if silent > QUIET:
+            yield f'no {session.instrument.topic} for {silent:.0f} s'
+        if session.whereabouts.transforms is not None:
+            return  # tf2 tells
+        alone = now - max(self.ownship_at, self.started)
+        patience = max(QUIET, session.whereabouts.platform.max_extrapolation)
+        if session.frame.needs_platform and alone > patience:
+            yield f'no ownship for {alone:.0f} s'
+
+    def _warnings(self, session: Session) -> Iterator[str]:
+        """Yield what is wrong with the inputs that come."""
+        topic, new = session.instrument.topic, _complaints(session) - self._told
+        if new.pop(f'{topic} shed', 0):
+            yield f'too slow: only the newest {topic} are used'
+        if len(session.tracks) >= NEAR_CAPACITY * session.instrument.tracker.config.max_tracks:
+            yield 'close to max_tracks'
+        crowded = [name for name, count in session.counts.items() if count.publishers > 1]
+        if crowded:
+            yield f'several publishers on {" and ".join(crowded)}'
+        yield from sorted(new)
+
+    def told(self, session: Session) -> None:
+        """Take note that complaints up to now have been reported."""
+        self._told = _complaints(session)
+
+    def values(self, session: Session, now: float) -> dict[str, object]:
+        """Return every number by name; ages and times in s."""
+        tracks, report = session.tracks, session.instrument.tracker.state.report
+        topic = session.instrument.topic
+        capacity = session.instrument.tracker.config.max_tracks
+        return {
+            'tracks': len(tracks),
+            'tracks confirmed': int(tracks.confirmed.sum()),
+            'tracks capacity': capacity,
+            'tracks refused (capacity)': report.refused,
+            'tracks broken': report.broken,
+            f'{topic} used': report.plots,
+            f'{topic} held': report.held,
+            'clutter density': report.clutter_density,
+            'step time [s]': self.step_time,
+            'step CPU [s]': self.step_cpu,
+            'latency [s]': self.latency,
+            f'{topic} age [s]': now - self.plots_at,
+            'ownship age [s]': now - self.ownship_at,
+            'clock jumps': session.guard.jumps,
+            f'{topic} silences': session.guard.silences,
+            **session.counts[topic].values(topic),
+            **session.counts['ownship'].values('ownship'),
+            **session.counts['acquire'].values('acquire'),
+        }
+
+
+def _complaints(session: Session) -> Counter[str]:
+    """Return what was lost, shed, refused and dropped so far, by topic and reason."""
+    complaints = Counter({f'{session.instrument.topic} were silent': session.guard.silences})
+    complaints.update(session.ledger.failures)
+    for topic, count in session.counts.items():
+        complaints[f'{topic} lost'] += count.lost
+        complaints[f'{topic} shed'] += count.shed
+        for reason, number in count.refused.items():
+            complaints[f'{topic} refused: {reason}'] += number
+        for reason, number in count.dropped.items():
+            complaints[f'{topic} dropped: {reason}'] += number
+    return complaints

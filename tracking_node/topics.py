@@ -1,0 +1,198 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a node listens to and says while it is configured; messages go to the session."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import PointCloud2
+from std_msgs.msg import UInt32
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import MarkerArray
+
+from msg_adapters.diagnostics import to_diagnostics
+from msg_adapters.kinds.menu import message_class
+from msg_adapters.message_types import rclpy_types
+from tracking_node.body_topics import BodyTopics
+from tracking_node.clock_check import ClockCheck
+from tracking_node.display import Display
+from tracking_node.health import Health, QUIET
+from tracking_node.inputs import age, arrival_time, Inputs
+from tracking_node.node import explain_silence
+from tracking_node.openings import Openings
+from tracking_node.waiting import Waiting
+from tracking_session.session import Session
+from tracking_session.snapshots.keeper import Keeper
+
+Configs = tuple[Any, ...]
+MakeSession = Callable[..., Session]
+
+RETRY = 0.02  # s between two looks for a transform that is missed
+
+
+class LiveTopics:
+    """
+    The topics of one tracker.
+
+    Parameters
+    ----------
+    node : LifecycleNode
+        Whose topics they are.
+    make_session : callable
+        Returns the session, from the configs, message classes and a log.
+    configs : tuple
+        Of the tracker and of the node.
+
+    """
+
+    def __init__(self, node: Any, make_session: MakeSession, configs: Configs) -> None:
+        self._node, self._node_config, self._types = node, configs[1], rclpy_types()
+        self._session = make_session(*configs, self._types, node.get_logger())
+        self._topic = self._session.instrument.topic
+        self._keeper = Keeper(self._session, configs)
+        self._display, self._health = Display(self._types), Health(time.monotonic())
+        self._clock_check = ClockCheck(node, self._topic)
+        self._level, self._is_active, self._silence_is_told = '', False, False
+        self._openings = Openings(node)
+        try:
+            self._open(self._openings, message_class(configs[1].input_type))
+        except Exception:
+            self._openings.close()
+            raise
+
+    def _open(self, openings: Openings, input_class: Any) -> None:
+        hear, tell = openings.hear, openings.tell
+        subscriptions = {  # of two that are there, the executor takes the first
+            'ownship': hear(Odometry, 'ownship', self._on_ownship),
+            self._topic: hear(input_class, self._topic, self._on_plots),
+            'acquire': hear(PointStamped, 'acquire', self._order(self._session.acquire)),
+            'cancel': hear(UInt32, 'cancel', self._order(self._session.cancel)),
+        }
+        self._inputs = Inputs(subscriptions, self._session.ledger)
+        self._tracks = tell(PointCloud2, '~/tracks')
+        self._bodies = BodyTopics(openings, self._node_config.output_type, self._types)
+        self._markers = tell(MarkerArray, '~/markers')
+        self._diagnostics = openings.tell_always(DiagnosticArray, '/diagnostics')
+        openings.serve(Trigger, '~/reset', self._on_reset)
+        openings.every(1.0, self._tick)
+        self._keeper.open(openings.every, arrival_time(self._node))
+        self._follow_transforms(openings)
+        openings.when_clock_goes_back(self._session.guard.clock_moved)
+
+    def _follow_transforms(self, openings: Openings) -> None:
+        config, ledger = self._node_config, self._session.ledger
+        refuse = partial(ledger.refuse, self._topic, 'no transform')
+        self._waiting = Waiting(self._use_plots, refuse, config.tf_patience)
+        if config.use_tf:
+            self._session.use_transforms(openings.transforms())
+            openings.every(RETRY, self._waiting.retry)
+
+    def close(self) -> None:
+        """Give all topics back, and keep the tracks where that is wanted."""
+        self._keeper.save()
+        self._openings.close()
+
+    def activate(self) -> None:
+        """Begin to track."""
+        self._health = Health(time.monotonic())
+        self._is_active, self._silence_is_told = True, False
+
+    def deactivate(self) -> None:
+        """Stop listening and clear the screens; tracks are kept."""
+        self._is_active = False
+        self._waiting.clear()
+        if self._session.stamp is not None:
+            self._markers.publish(self._display.erase(self._session.header()))
+
+    def reconfigure(self, configs: Configs) -> None:
+        """Go on with other live parameters."""
+        config, self._node_config = configs
+        self._session.instrument.tracker.reconfigure(config)
+
+    def _on_plots(self, msg: Any, info: Any) -> None:
+        if not self._is_active:
+            self._inputs.ignore(self._topic, info)
+            return
+        msg, info = self._inputs.freshest(self._topic, (msg, info), self._node_config.max_delay)
+        for odometry in self._inputs.waiting('ownship'):  # it must be known at the plots' time
+            self._on_ownship(*odometry)
+        self._health.plots_at, self._silence_is_told = time.monotonic(), True
+        self._clock_check.compare(msg.header.stamp)
+        self._waiting.take(msg, info)
+
+    def _use_plots(self, msg: Any, info: Any) -> None:
+        self._health.step_begins()
+        table = self._session.plots(msg, arrival_time(self._node))
+        self._keeper.reserve_ids()
+        if table is not None:
+            self._tracks.publish(table)
+            self._show()
+            self._health.latency = age(info)
+        self._health.step_ends()
+        self._report()
+
+    def _show(self) -> None:
+        """Publish what is for eyes and other tools, while somebody subscribes."""
+        self._session.instrument.follow()
+        self._display.is_behind = True
+        self._bodies.publish(self._session.instrument, self._session.header())
+        self._draw()
+
+    def _draw(self) -> None:
+        """Publish markers if somebody looks and they are due."""
+        now, markers = time.monotonic(), self._node_config.markers
+        if self._markers.get_subscription_count() and self._display.is_due(now, markers.rate):
+            self._markers.publish(self._display.draw(self._session, now, markers))
+
+    def _on_ownship(self, msg: Any, info: Any) -> None:
+        if not self._is_active:
+            self._inputs.ignore('ownship', info)
+        else:
+            self._inputs.count('ownship', info)
+            self._health.ownship_at = time.monotonic()
+            self._session.ownship(msg, arrival_time(self._node))
+
+    def _order(self, give: Callable[[Any], None]) -> Callable[[Any], None]:
+        """Return a callback that hands orders on while the node is active."""
+        return lambda msg: give(msg) if self._is_active else None
+
+    def _on_reset(self, _: Any, response: Any) -> Any:
+        self._session.reset()
+        self._keeper.save()
+        response.success, response.message = True, 'all tracks are forgotten'
+        self._node.get_logger().info('reset: all tracks are forgotten')
+        return response
+
+    def _tick(self) -> None:
+        """Once a second: report, draw what was not due before, and explain a silence."""
+        now = time.monotonic()
+        if self._session.stamp is not None:
+            self._draw()
+        if self._is_active and not self._silence_is_told and now - self._health.started > QUIET:
+            self._silence_is_told = True
+            silent = self._inputs.subscriptions[self._topic]
+            self._node.get_logger().warning(explain_silence(self._node, silent))
+        self._level = ''
+        self._report()
+        self._health.told(self._session)
+
+    def _report(self) -> None:
+        """Publish the diagnostics if their level is not the one that was said last."""
+        now = time.monotonic()
+        active = self._is_active
+        level, text = self._health.level(self._session, now) if active else ('OK', 'not active')
+        if level == self._level:
+            return
+        self._level, values = level, self._health.values(self._session, now)
+        name = f'{self._node.get_fully_qualified_name().lstrip("/")}: tracking'
+        header = self._types.Header(stamp=self._node.get_clock().now().to_msg(), frame_id='')
+        self._diagnostics.publish(
+            to_diagnostics(name, level, text, values=values, header=header, types=self._types)
+        )

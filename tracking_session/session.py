@@ -1,0 +1,199 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What is done with each message, without a ROS graph and whatever the sensor.
+
+The node hands over what it receives and publishes what comes back, as a replay does with those of
+a bag. Whatever a message contains, the worst that happens is a refusal, counted and said.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from msg_adapters.bad_message import BadMessage
+from msg_adapters.message_types import MessageTypes, seconds
+from msg_adapters.ownship import to_platform
+from msg_adapters.points import to_position
+from msg_adapters.reading import Reading
+from tracking_core.batches import Tracks
+from tracking_core.platform import StalePlatform
+from tracking_session.frames import TrackingFrame
+from tracking_session.history import History
+from tracking_session.input_count import InputCount
+from tracking_session.instrument import Instrument
+from tracking_session.late import Follower
+from tracking_session.ledger import Ledger, Log
+from tracking_session.node_config import NodeConfig
+from tracking_session.stamp_guard import StampGuard
+from tracking_session.whereabouts import Transforms, Whereabouts
+
+
+class Session:
+    """
+    One sensor from the first message on.
+
+    Parameters
+    ----------
+    instrument : Instrument
+        The sensor and its tracker.
+    node_config : NodeConfig
+        Of the messages.
+    types : MessageTypes
+        Classes of the messages that come back.
+    log : Log
+        Takes what a user must know.
+
+    """
+
+    def __init__(
+        self, instrument: Instrument, node_config: NodeConfig, types: MessageTypes, log: Log
+    ) -> None:
+        self.instrument = instrument
+        self.ledger = Ledger(f'{instrument.topic} ownship acquire', log.warning)
+        self.guard = StampGuard(node_config.time_jump_threshold)
+        self.whereabouts = Whereabouts(node_config)
+        history = History(node_config.scan.late, node_config.time_jump_threshold)
+        self._follower = Follower(instrument, history)
+        self._node_config, self.types, self.log = node_config, types, log
+        self.published = instrument.tracker.tracks
+        self._forget()
+
+    def _forget(self) -> None:
+        """Be as after a start, but for the tracks that must be reported as deleted."""
+        for known in (self._follower.history, self.guard, self.whereabouts):
+            known.reset()
+        name, is_mounted = self._node_config.tracking_frame, self.instrument.is_mounted
+        self.frame = TrackingFrame(name, is_mounted, self.log.info)
+        self.frame.by_tree = self.whereabouts.transforms is not None
+        self.stamp: Any = None  # of the last plots that were used
+        self.mapping: dict[str, str] = {}
+
+    def use_transforms(self, transforms: Transforms) -> None:
+        """Take the place of the sensor from these; ValueError if a mount is set too."""
+        if self.instrument.is_mounted:
+            raise ValueError('use_tf is true and sensor.mount is set: tf2 knows the mount')
+        self.whereabouts.transforms, self.frame.by_tree = transforms, True
+
+    @property
+    def counts(self) -> dict[str, InputCount]:
+        """What happened to the messages of each topic."""
+        return self.ledger.counts
+
+    @property
+    def tracks(self) -> Tracks:
+        """All tracks as of the last message."""
+        return self.instrument.tracker.tracks
+
+    def reset(self) -> None:
+        """Start anew: tracks, clock, frames and own ship are forgotten."""
+        self.instrument.tracker.reset()
+        self._forget()
+
+    def header(self) -> Any:
+        """Return a header with the stamp of the last plots, in the tracking frame."""
+        stamp = self.types.Time(sec=self.stamp.sec, nanosec=self.stamp.nanosec)
+        return self.types.Header(stamp=stamp, frame_id=self.frame.name)
+
+    def plots(self, msg: Any, received: float) -> Any | None:
+        """
+        Return the track table after this message, None if it was refused or came late.
+
+        Late plots are used at their own time; the next table shows it. `NotYet` passes.
+
+        Parameters
+        ----------
+        msg : PointCloud2, or another type on the menu of ``kinds``
+            Plots of a radar, marks of a sonar.
+        received : float
+            When it came, by a clock that never goes back [s].
+
+        """
+        try:
+            return self._follow(msg, received)
+        except BadMessage as error:
+            self.ledger.refuse(self.instrument.topic, error.reason, error)
+        except StalePlatform as error:
+            self.ledger.refuse(self.instrument.topic, 'own ship stale', error)
+        return None
+
+    def _follow(self, msg: Any, received: float) -> Any:
+        reading = self.instrument.read(msg, self.mapping)
+        plots, history = reading.plots, self._follower.history
+        self.frame.check_plots(plots.frame, reading.is_polar)
+        if len(plots):
+            self.instrument.check(self.frame, self.ledger.warn)
+        platform = self.whereabouts.covering(self.instrument.moments(plots), self.frame)
+        if history.takes(plots.stamp) and not self.guard.is_going_back:
+            self._follower.insert(plots, platform, self.frame)
+            self._use(reading)
+            self.counts[self.instrument.topic].late_used += 1
+            return None
+        if self._accept(plots.stamp, received):
+            self._start_anew(f'time moved to {plots.stamp:.3f} (a recording that began anew?)')
+        tracks = self._follower.step(plots, platform, self.frame)
+        self._use(reading)
+        self.stamp = msg.header.stamp
+        last, self.published = self.published, tracks
+        return self.instrument.to_table(last, self.header())
+
+    def _accept(self, stamp: float, received: float) -> bool:
+        """Return whether tracking must start anew; raises BadMessage, and counts what is late."""
+        try:
+            return self.guard.accept(stamp, received)
+        except BadMessage:
+            late = self._follower.history.has_lost(stamp)
+            self.counts[self.instrument.topic].late_dropped += late
+            raise
+
+    def _start_anew(self, why: str) -> None:
+        self.log.warning(f'{why}: tracking starts anew')
+        self._follower.history.reset()
+        self.instrument.tracker.reset()
+
+    def _use(self, reading: Reading[Any]) -> None:
+        """Count the rows of a message that is accepted, and say once which fields are used."""
+        rows = len(reading.plots)
+        self.ledger.use(self.instrument.topic, rows, reading.dropped, reading.doubtful)
+        if rows and not self.mapping:
+            used = ', '.join(f'{ours}: {theirs}' for ours, theirs in reading.mapping.items())
+            self.log.info(f'fields of the {self.instrument.topic} in use: {used}')
+            if reading.note:
+                self.log.warning(reading.note)
+            self.mapping = reading.mapping
+
+    def ownship(self, msg: Any, received: float) -> None:
+        """Take one odometry of the platform."""
+        try:
+            sample = to_platform(msg)
+            frame, time = msg.header.frame_id.lstrip('/'), float(sample.time[0])
+            appeared = self.frame.check_ownship(frame, time)
+            if self.whereabouts.take(sample, received) or appeared:
+                self._start_anew('own ship appeared' if appeared else 'own ship is elsewhere')
+        except BadMessage as error:
+            self.ledger.refuse('ownship', error.reason, error)
+
+    def acquire(self, msg: Any) -> None:
+        """Start a track where a user points."""
+        try:
+            tracker, topic = self.instrument.tracker, self.instrument.topic
+            if self.stamp is None or not tracker.is_ready:
+                raise BadMessage('no scan yet', f'no {topic} have come yet')
+            self.frame.check_point(msg.header.frame_id.lstrip('/'))
+            position = to_position(msg, tracker.sensor_position, self.instrument.reach)
+            if len(self.tracks) >= (most := tracker.config.max_tracks):
+                raise BadMessage('no room', f'there are {most} tracks already (max_tracks)')
+            track_id = tracker.start_track(position, seconds(self.stamp))
+            self._follower.history.close()
+            self.log.info(f'track {track_id} started at {position} m')
+        except BadMessage as error:
+            self.ledger.refuse('acquire', error.reason, error)
+
+    def cancel(self, msg: Any) -> None:
+        """Drop one track, as a UInt32 says."""
+        track_id = msg.data
+        if self.instrument.tracker.drop_track(track_id):
+            self._follower.history.close()
+            self.log.info(f'track {track_id} dropped')
+        else:
+            self.ledger.warn('cancel', f'cancel: there is no track {track_id}')

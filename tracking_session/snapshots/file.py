@@ -1,0 +1,95 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How is a tree of values kept in one file, safely?
+
+A line that says what this is, a line with the SHA-256 of all that follows, the length of a JSON
+text, that text, and the bytes of all arrays in a row. Nothing in it is code; every size is checked
+against the file before memory is taken. A new file takes the place of the old one in one step, so
+that a node which is killed while it writes leaves the old one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from hashlib import sha256
+import json
+import os
+from pathlib import Path
+import tempfile
+from typing import Any
+
+from tracking_session.snapshots.values import from_plain, to_plain
+
+VERSION = 1
+MAGIC = b'contact_tracking snapshot '
+LARGEST = 1_000_000_000  # bytes of a file; 200,000 tracks are less
+_LENGTH = 8  # bytes that hold the length of the JSON text
+
+
+class BadSnapshot(ValueError):  # noqa: N818 (it is the snapshot that is bad)
+    """A file that cannot be restored; says why."""
+
+
+def write_snapshot(path: Path, tree: Mapping[str, Any]) -> None:
+    """
+    Put a tree of values where the old file was, all or nothing; OSError if that fails.
+
+    A folder that is not there is made.
+    """
+    arrays: list[Any] = []
+    text = json.dumps(to_plain(dict(tree), arrays)).encode()
+    body = b''.join(
+        [len(text).to_bytes(_LENGTH, 'little'), text, *(values.tobytes() for values in arrays)]
+    )
+    head = MAGIC + f'{VERSION}\n{sha256(body).hexdigest()}\n'.encode()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    number, name = tempfile.mkstemp(prefix=f'.{path.name}.', dir=path.parent)
+    try:
+        with os.fdopen(number, 'wb') as file:
+            file.write(head)
+            file.write(body)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(name, path)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def read_snapshot(path: Path) -> dict[str, Any]:
+    """
+    Return the tree of values of a file.
+
+    Raises
+    ------
+    OSError
+        If there is no file or it cannot be read.
+    BadSnapshot
+        If it is no snapshot, one of another version, or damaged.
+
+    """
+    if path.stat().st_size > LARGEST:
+        raise BadSnapshot(f'it has more than {LARGEST} bytes')
+    head, _, rest = path.read_bytes().partition(b'\n')
+    checksum, _, body = rest.partition(b'\n')
+    if not head.startswith(MAGIC):
+        raise BadSnapshot('it is no snapshot')
+    version = head.removeprefix(MAGIC).decode('ascii', 'replace')
+    if version != str(VERSION):
+        raise BadSnapshot(f'it is of version {version[:20]}, this program reads {VERSION}')
+    if checksum != sha256(body).hexdigest().encode():
+        raise BadSnapshot('it is damaged: the checksum is wrong')
+    return _tree(body)
+
+
+def _tree(body: bytes) -> dict[str, Any]:
+    """Return what a body says; whoever wrote it knew the checksum, so it may still be anything."""
+    end = _LENGTH + int.from_bytes(body[:_LENGTH], 'little')
+    try:
+        tree, used = from_plain(json.loads(body[_LENGTH:end]), memoryview(body)[end:])
+    except (ValueError, TypeError, KeyError, RecursionError) as error:
+        raise BadSnapshot(f'it has contents that are none: {error}') from error
+    if not isinstance(tree, dict) or end + used != len(body):
+        raise BadSnapshot('it has contents that are none')
+    return tree

@@ -1,0 +1,91 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where was the sensor's platform? From own ship's odometry, or from whoever knows transforms."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from tracking_core.batches import Floats
+from tracking_core.platform import Platform
+from tracking_session.frames import TrackingFrame
+from tracking_session.leap_guard import LeapGuard
+from tracking_session.node_config import NodeConfig
+from tracking_session.stamp_guard import StampGuard
+
+
+class NotYet(Exception):  # noqa: N818 (a state rather than an error)
+    """Where the sensor was at the time of these plots is not known yet; says what is missing."""
+
+
+class Transforms(Protocol):
+    """Whoever knows where frames are."""
+
+    def sensor(self, frame: str, into: str, times: Floats) -> Platform:
+        """
+        Return where the sensor's frame was in another one, from the first to the last time [s].
+
+        Raises
+        ------
+        NotYet
+            If that is not known, or not yet.
+
+        """
+
+
+class Whereabouts:
+    """
+    The platform's path.
+
+    Parameters
+    ----------
+    node_config : NodeConfig
+        Limits of times.
+
+    """
+
+    def __init__(self, node_config: NodeConfig) -> None:
+        self._config, self.transforms = node_config, None
+        self._guard = StampGuard(node_config.time_jump_threshold)
+        self._leaps = LeapGuard(node_config.ownship_leap, node_config.ownship_timeout)
+        self.reset()
+
+    transforms: Transforms | None
+
+    def reset(self) -> None:
+        """Forget the path."""
+        self._guard.reset()
+        self._leaps.reset()
+        self.platform = Platform.empty(self._config.ownship_timeout)
+
+    def take(self, sample: Platform, received: float) -> bool:
+        """Add one odometry; return whether own ship leapt. BadMessage if it cannot be true."""
+        has_jumped = self._guard.accept(float(sample.time[0]), received)
+        if has_jumped:
+            self._leaps.reset()
+        has_leapt = self._leaps.accept(sample)
+        if has_jumped or has_leapt:
+            self.platform = Platform.empty(self._config.ownship_timeout)
+        self.platform = self.platform.add(sample)
+        return has_leapt
+
+    def covering(self, times: Floats, frame: TrackingFrame) -> Platform | None:
+        """
+        Return a path of the sensor's platform that covers these times (K,) [s], if one is needed.
+
+        Raises
+        ------
+        StalePlatform, NotYet
+            Where there is none.
+
+        """
+        if not frame.needs_platform:
+            return None
+        if self.transforms is not None:
+            samples = self.transforms.sensor(str(frame.sensor), frame.name, times)
+            newest = self.platform.time[-1:]
+            if (newest - samples.time[0] > self._config.time_jump_threshold).any():
+                self.platform = Platform.empty(self._config.ownship_timeout)
+            self.platform = self.platform.add(samples)
+        self.platform.at(times)  # raises where they are not covered
+        return self.platform
