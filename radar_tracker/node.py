@@ -19,7 +19,7 @@ from tracking_node.start import start
 
 def main(args: Sequence[str] | None = None) -> int:
     """Run the radar node; return its exit code."""
-    return start('radar_tracker.live', args)
+    return start('radar_tracker.live', __doc__, args)
 
 
 if __name__ == '__main__':

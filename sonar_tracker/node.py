@@ -20,7 +20,7 @@ from tracking_node.start import start
 
 def main(args: Sequence[str] | None = None) -> int:
     """Run the sonar node; return its exit code."""
-    return start('sonar_tracker.live', args)
+    return start('sonar_tracker.live', __doc__, args)
 
 
 if __name__ == '__main__':

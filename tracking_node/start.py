@@ -15,11 +15,16 @@ from collections.abc import Sequence
 from importlib import import_module
 import os
 import signal
+import sys
 
+USAGE = """usage: {} [--help] [--ros-args [-r FROM:=TO] [-p NAME:=VALUE] [--params-file FILE] ...]
+
+{}
+docs/parameters.md explains every parameter; config/ has files to begin with."""
 LONGEST_END = 10  # from the return of `main` until the process is ended [s]
 
 
-def start(module: str, args: Sequence[str] | None = None) -> int:
+def start(module: str, about: str, args: Sequence[str] | None = None) -> int:
     """
     Import a module and run its `main`, which takes the signals over; return the exit code.
 
@@ -27,10 +32,15 @@ def start(module: str, args: Sequence[str] | None = None) -> int:
     ----------
     module : str
         With all that the node needs.
+    about : str
+        What the node is, for who asks with ``--help``.
     args : sequence of str, optional
         Command line; that of the process by default.
 
     """
+    if {'-h', '--help'} & set(sys.argv[1:] if args is None else args):
+        print(USAGE.format(module.partition('.')[0], about.strip()))
+        return 0
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _leave)
     code = int(import_module(module).main(args))

@@ -52,10 +52,10 @@ def main(arguments: Sequence[str] | None = None, demo: Demo | None = None) -> in
     try:
         show(chosen, demo)
     except KeyboardInterrupt:
-        print('\ndemo: stopped', file=sys.stderr)
+        print(f'\n{demo.name}: stopped', file=sys.stderr)
         return STOPPED
     except (BadBag, NodeFailed, OSError, ValueError) as error:
-        print(f'demo: {error}', file=sys.stderr)
+        print(f'{demo.name}: {error}', file=sys.stderr)
         return 1
     return 0
 
@@ -102,7 +102,7 @@ def _remove_bag(path: Path) -> None:
 
 def _parser(demo: Demo) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog='demo',
+        prog=demo.name,
         description=f'Play a recorded scene to the live {demo.sensor.node}; draw its tracks.',
     )
     add = parser.add_argument

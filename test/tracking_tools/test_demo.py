@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 
 from msg_adapters.table import to_columns
+from tracking_tools import demo_sonar
 from tracking_tools.bags import open_bag
-from tracking_tools.demo import main
+from tracking_tools.demo import main, RADAR_DEMO
 from tracking_tools.held import count_false, find_holds
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.scene import Scene
@@ -115,6 +116,14 @@ def test_demo_removes_nothing_but_bags(cut_bag, tmp_path, capsys):
     assert main(arguments) == 1
     assert 'is in the way' in capsys.readouterr().err
     assert (tmp_path / 'demo_tracks' / 'thesis.txt').exists()
+
+
+@pytest.mark.parametrize('demo', [RADAR_DEMO, demo_sonar.DEMO], ids=lambda demo: demo.name)
+def test_demo_is_called_what_it_is(demo, capsys):
+    """Its help names the command."""
+    with pytest.raises(SystemExit):
+        main(['--help'], demo)
+    assert capsys.readouterr().out.startswith(f'usage: {demo.name} ')
 
 
 @pytest.mark.parametrize('rate', ['0', '-1', 'nan', 'fast'])
