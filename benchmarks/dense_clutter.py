@@ -4,8 +4,9 @@
 When are contacts found among hundreds of false plots, and how many tracks follow nobody?
 
 Run ``python -m benchmarks.dense_clutter [--runs N]``. Five contacts at 200 m/s within 50 km, a
-look every 4 s, P_D 0.9, plots of 80 m, speed limit 600 m/s, 40 looks; nothing else is set. Look 1
-is the first one. Mean and standard error over the runs; the losing rows are those of M of N.
+look every 4 s, P_D 0.9, plots of 80 m, speed limit 600 m/s, 40 looks; set is what stands in front
+of a row. Look 1 is the first one. Mean and standard error over the runs; the losing rows are 600
+false plots as nothing is set, no faint starts, and M of N.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import process_time
+from typing import Any
 
 import numpy as np
 from tqdm import tqdm
@@ -28,6 +30,13 @@ CONTACTS, SPEED, START = 5, 200.0, 30e3  # [m/s]; start within so many metres of
 RADIUS = 600.0  # a track farther off follows somebody else [m]
 LOOKS, SETTLED = 40, 10  # held and false tracks are counted after so many
 FALSE_PLOTS = (20, 40, 80, 150, 300, 600)
+# What is set, and among how many false plots it is tried.
+CASES = (
+    ({}, FALSE_PLOTS),
+    ({'initiation.faint_starts': 0}, (40, 80)),
+    ({'initiation.faint_starts': 200}, (600, 1000)),
+    ({'lifecycle': 'm_of_n'}, FALSE_PLOTS),
+)
 
 
 @dataclass(frozen=True)
@@ -45,7 +54,7 @@ class Outcome:
         return np.where(self.held.any(axis=0), self.held.argmax(axis=0) + 1.0, np.nan)
 
 
-def watch(false_plots: float, seed: int, looks: int = LOOKS, **values: str) -> Outcome:
+def watch(false_plots: float, seed: int, looks: int = LOOKS, **values: Any) -> Outcome:
     """Return what a tracker makes of so many false plots a look; `values` are parameters."""
     rng = np.random.default_rng(seed)
     tracker = RadarTracker(
@@ -88,7 +97,7 @@ def _within(distance: float, count: int, rng: np.random.Generator) -> Floats:
     return distance * np.sqrt(rng.random(count))[:, None] * _directions(count, rng)
 
 
-def line(lifecycle: str, false_plots: float, outcomes: Sequence[Outcome]) -> str:
+def line(name: str, false_plots: float, outcomes: Sequence[Outcome]) -> str:
     """Return the row of the table."""
     found = np.concatenate([o.found for o in outcomes])
     known = found[np.isfinite(found)]
@@ -98,7 +107,7 @@ def line(lifecycle: str, false_plots: float, outcomes: Sequence[Outcome]) -> str
     tracks = np.mean([o.tracks[SETTLED:] for o in outcomes])
     cost = 1e3 * np.median([o.cost[SETTLED:] for o in outcomes])
     return (
-        f'{lifecycle:10}{false_plots:12.0f}{when:>14}{np.isfinite(found).mean():8.2f}'
+        f'{name:28}{false_plots:12.0f}{when:>14}{np.isfinite(found).mean():8.2f}'
         f'{held.mean():8.3f} +- {_error(held):.3f}{false.mean():8.3f} +- {_error(false):.3f}'
         f'{tracks:8.0f}{cost:8.2f}'
     )
@@ -113,13 +122,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description='Contacts among hundreds of false plots.')
     parser.add_argument('--runs', type=int, default=20, help='of five contacts each')
     given = parser.parse_args(arguments)
-    print(f'{"lifecycle":10}{"false plots":>12}{"look":>14}{"found":>8}{"held":>17}'
+    print(f'{"set":28}{"false plots":>12}{"look":>14}{"found":>8}{"held":>17}'
           f'{"false tracks":>17}{"tracks":>8}{"CPU ms":>8}')  # fmt: skip
-    for lifecycle in ('existence', 'm_of_n'):
-        for false_plots in FALSE_PLOTS:
-            seeds = tqdm(range(given.runs), desc=f'{lifecycle}, {false_plots}', leave=False)
-            outcomes = [watch(false_plots, seed, lifecycle=lifecycle) for seed in seeds]
-            print(line(lifecycle, false_plots, outcomes), flush=True)
+    for values, amounts in CASES:
+        name = ' '.join(f'{key}: {value}' for key, value in values.items())
+        for false_plots in amounts:
+            seeds = tqdm(range(given.runs), desc=f'{name}, {false_plots}', leave=False)
+            outcomes = [watch(false_plots, seed, **values) for seed in seeds]
+            print(line(name, false_plots, outcomes), flush=True)
 
 
 if __name__ == '__main__':

@@ -26,8 +26,9 @@ def build_setup(config: SonarTrackerConfig, sonar: Sonar) -> Setup:
     """Return sensor, filters and rules for these parameters."""
     start = config.initiation
     initiation = InitiationConfig(
-        method=start.method, speed_max=start.rate_max, speed_sd=start.rate_sd, memory=start.memory
-    )
+        method=start.method, speed_max=start.rate_max, speed_sd=start.rate_sd,
+        memory=start.memory, faint_starts=start.faint_starts,
+    )  # fmt: skip
     planes = (Plane(_with_marks(build_estimator(config), config), (0,)),)
     return assemble(config, sonar, planes, initiation, config.sensor.bearing_resolution)
 

@@ -114,6 +114,11 @@ class BearingInitiationConfig:
         2.5, unit='looks', doc='how long an unclaimed mark may wait for its second', low=1.0,
         high=10.0, live=True,
     )  # fmt: skip
+    faint_starts: int = parameter(
+        30, unit='1', low=0, high=10_000, live=True,
+        doc='so many pairs that are less likely than usual are followed a cycle in dense clutter; '
+        'more find contacts among more false marks, and cost more; m_of_n follows none',
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""

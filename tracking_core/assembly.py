@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from tracking_core.association import ASSOCIATORS, DECIDING
@@ -47,7 +48,7 @@ def assemble(
         associate=ASSOCIATORS[config.association],
         is_soft=config.association not in DECIDING,
         lifecycle=lifecycle,
-        initiation=initiation,
+        initiation=initiation if lifecycle.follows_faint else replace(initiation, faint_starts=0),
         gate_probability=config.gate.probability,
         clutter_density=config.clutter_density,
         new_contacts=config.existence.new_contacts / _SECONDS_PER_HOUR,

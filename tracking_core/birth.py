@@ -64,7 +64,7 @@ def start_tracks(
         starts = two_point(
             state.seeds, fresh, density, scan.coverage, interval,
             setup.sensor.detection_probability, setup.least_existence, setup.initiation,
-            setup.sensor.space, setup.lifecycle.follows_faint,
+            setup.sensor.space,
         )  # fmt: skip
         starts = with_speed_prior(starts, setup.initiation.speed_sd)
         starts = one_a_plot(starts, len(fresh))

@@ -18,7 +18,6 @@ from tracking_core.rows import change, take, take_rows
 from tracking_core.space import POINTS, Space
 
 _MOST_PAIRS = 1_000_000  # of plots looked at; the last seeds go without
-_MOST_FAINT = 30  # starts of a look that are less likely than usual
 _NOISE_SIGMAS = 3.0  # by how much of the plots' noise the speed limit is widened
 
 
@@ -66,7 +65,6 @@ def two_point(
     least_existence: float,
     config: InitiationConfig,
     space: Space = POINTS,
-    follows_faint: bool = True,
 ) -> Starts:
     """
     Start a track on every pair of an older and a fresh plot that keeps the speed limit.
@@ -85,13 +83,11 @@ def two_point(
         P_D.
     least_existence : float
         Pairs less likely than this are usually not worth a track. In clutter so dense that two
-        plots of a contact seldom are, the likeliest of the fainter pairs are, too.
+        plots of a contact seldom are, the likeliest `faint_starts` of the fainter pairs are, too.
     config : InitiationConfig
-        Speed limits.
+        Speed limits, and how many faint starts.
     space : Space
         Where the plots are.
-    follows_faint : bool
-        In dense clutter, start fainter tracks than `least_existence`, too.
 
     Returns
     -------
@@ -101,7 +97,9 @@ def two_point(
     """
     odds = Odds(density, detection_probability, config)
     alone = odds.at_best(seeds, interval)
-    leniency = odds.leniency(alone, seeds.free, least_existence) if follows_faint else 1.0
+    leniency = 1.0
+    if config.faint_starts:
+        leniency = odds.leniency(alone, seeds.free, least_existence)
     most, least = MOST_NEW * seeds.free, least_existence / leniency
     seeds = take(seeds, most * alone >= least * (1.0 - most + most * alone))
 
@@ -115,7 +113,8 @@ def two_point(
     evidence = np.bincount(old, likely, len(seeds)) - detection_probability
     prior = share_of_new(density.existence, np.asarray(evidence), seeds.free) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]
-    keep = _worth_a_track(existence, least_existence, leniency, coverage)
+    faint_starts = math.ceil(config.faint_starts * coverage.part_of_look)
+    keep = _worth_a_track(existence, least_existence, leniency, faint_starts)
     starts = _starts(
         take_rows(seeds.covariance, old[keep]), take_rows(fresh.covariance, new[keep]),
         take_rows(fresh.position, new[keep]), take_rows(step, keep), dt[keep], existence[keep],
@@ -124,11 +123,10 @@ def two_point(
     return change(starts, leniency=leniency)
 
 
-def _worth_a_track(existence: Floats, least: float, leniency: float, coverage: Coverage) -> Ints:
-    """Return the pairs (K,) that are likely enough; of the faint ones, not too many in a look."""
+def _worth_a_track(existence: Floats, least: float, leniency: float, most: int) -> Ints:
+    """Return the pairs (K,) that are likely enough, and the likeliest of the faint ones."""
     keep = existence >= least
     faint = ((existence >= least / leniency) & ~keep).nonzero()[0]
-    most = math.ceil(_MOST_FAINT * coverage.part_of_look)
     keep[faint[np.argsort(-existence[faint], kind='stable')[:most]]] = True
     return keep.nonzero()[0]
 

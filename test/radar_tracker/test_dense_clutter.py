@@ -30,3 +30,13 @@ def test_counting_plots_confirms_no_clutter_there() -> None:
     outcome = watch(300.0, seed=1, looks=8, lifecycle='m_of_n')
     assert outcome.false[-1] == 0
     assert outcome.tracks.max() < 30
+
+
+def test_faint_starts_are_a_matter_of_what_they_may_cost() -> None:
+    """None: nothing is found there; more: found where the usual number is too few."""
+    assert not watch(80.0, seed=1, looks=15, **{'initiation.faint_starts': 0}).tracks.any()
+    few, many = (
+        watch(600.0, seed=2, looks=20, **{'initiation.faint_starts': number}).held[-1].sum()
+        for number in (30, 200)
+    )
+    assert few < many

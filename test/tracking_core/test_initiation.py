@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 import pytest
@@ -12,13 +14,14 @@ from scipy.stats import multivariate_normal
 from tracking_core.batches import Coverage, Seeds
 from tracking_core.birth import with_speed_prior
 from tracking_core.composition import Density
-from tracking_core.initiation import one_point, plane_start, two_point
+from tracking_core.initiation import one_point, plane_start, Starts, two_point
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.new_contacts import Odds, share_of_new
 
 INTERVAL = 4.0
 STARING = Coverage(INTERVAL, INTERVAL)
 LIMITS = InitiationConfig(speed_max=300.0, climb_max=20.0)
+THIN = Density(1e-9, 1e-9)
 
 
 def plots(time, position, free=1.0, variance=400.0) -> Seeds:
@@ -35,9 +38,9 @@ def plots(time, position, free=1.0, variance=400.0) -> Seeds:
     )
 
 
-def start(seeds: Seeds, fresh: Seeds, density=Density(1e-9, 1e-9), least: float = 0.0):  # noqa: B008
+def start(seeds: Seeds, fresh: Seeds, density=THIN, least: float = 0.0, config=LIMITS) -> Starts:
     """Two-point starts with P_D 0.9."""
-    return two_point(seeds, fresh, density, STARING, INTERVAL, 0.9, least, LIMITS)
+    return two_point(seeds, fresh, density, STARING, INTERVAL, 0.9, least, config)
 
 
 def test_two_point_gives_the_covariance_of_two_plots() -> None:
@@ -130,6 +133,11 @@ def test_two_point_starts_faint_tracks_in_clutter_but_not_too_many() -> None:
     assert starts.existence_probability.max() < 0.01
     assert_array_equal(np.sort(starts.plot), np.arange(30))
     assert starts.leniency > 1.0
+    few = start(seeds, fresh, density, least=0.01, config=replace(LIMITS, faint_starts=7))
+    assert_array_equal(np.sort(few.plot), np.arange(7))
+    none = start(seeds, fresh, density, least=0.01, config=replace(LIMITS, faint_starts=0))
+    assert len(none.plot) == 0
+    assert none.leniency == 1.0
     assert len(start(seeds, fresh, Density(1e-12, 1e-11), least=0.01).plot) == 400
 
 
