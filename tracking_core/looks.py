@@ -61,7 +61,7 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
     waited = (LONGEST_WAIT + LARGEST_MARGIN) * period if coverage.contiguous else 0.0
     earliest = np.maximum(0.5 * period, coverage.start_time - waited - time)
     turns = np.ceil((earliest - lag) / period - 1e-9)
-    passed = lag + np.maximum(turns, -1.0) * period
+    passed = lag + turns * period
     # A turn later the contact is elsewhere, by more than its gate if it is fast and near.
     antenna = coverage.start_azimuth + rate * (passed + (time - coverage.start_time))
     passed = passed + wrap_angle(azimuth(passed) - antenna) / rate

@@ -67,9 +67,9 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
 
 def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]:
     """
-    Return whether the antenna has passed a living track near the cut a second time in a message.
+    Return whether the antenna has passed a living track once more in the same message.
 
-    A second pass may also have begun only: then its plots (M,) must wait, they are the other
+    The next pass may also have begun only: then its plots (M,) must wait, they are the other
     thing returned.
     """
     waiting = np.zeros(len(scan), bool)

@@ -154,7 +154,7 @@ class Tracker:
 
     def _look(self, tracks: Tracks, scan: Scan, density: Density) -> Look:
         seen = look(tracks, scan, self.setup, density)
-        if seen.again:
+        while seen.again:
             seen = seen.and_then(look(seen.tracks, scan, self.setup, density))
         return seen
 

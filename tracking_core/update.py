@@ -37,7 +37,6 @@ class Look:
     """The tracks after a look, and what became of the plots."""
 
     tracks: Tracks  # those that live on
-    kept: Bools  # (T,) of the tracks before: which live on
     ended: Ints  # ids of the others
     broken: int  # tracks deleted because a covariance was not positive definite
     claimed: Floats  # (M,) chance that a known contact made the plot
@@ -52,12 +51,11 @@ class Look:
         claimed = self.claimed + second.claimed
         return Look(
             tracks=second.tracks,
-            kept=second.kept,
             ended=np.concatenate([self.ended, second.ended]),
             broken=self.broken + second.broken,
             claimed=claimed,
-            waiting=(self.waiting | second.waiting) & (claimed == 0.0),
-            passed=self.passed[second.kept] | second.passed,
+            waiting=second.waiting & (claimed == 0.0),
+            passed=second.passed | np.isin(second.tracks.id, self.tracks.id[self.passed]),
             pairs=self.pairs + second.pairs,
             approximate=self.approximate + second.approximate,
             again=second.again,
@@ -106,7 +104,6 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     kept[near.row[due]], worked_on[near.row[due]] = lives[due], True
     return Look(
         tracks=_merge(tracks, near.row, updated, kept, worked_on),
-        kept=kept,
         ended=tracks.id[~kept],
         broken=int((due & broken).sum()),
         claimed=claimed,
