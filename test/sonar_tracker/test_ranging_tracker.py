@@ -82,6 +82,28 @@ def test_ranging_can_be_off() -> None:
     assert_array_equal(tracker.ranges().observable, [False])
 
 
+def test_cycles_that_are_followed_again_tell_nothing_new_of_ranges() -> None:
+    """For a late cycle the tracker goes back to before the track was; its marks are all kept."""
+    tracker = SonarTracker(with_values(SonarTrackerConfig(), {'sensor.bearing_sd': SD}))
+    rng = np.random.default_rng(1)
+    cycles = [
+        Bearings.of(np.full(1, 2.0 * k), rng.normal(0.3, SD, 1), bearing_sd=np.full(1, SD))
+        for k in range(12)
+    ]
+    before = tracker.save()
+    for cycle in cycles:
+        tracker.track(cycle)
+    heard = tracker.ranging.history.remember()
+    assert heard['count'][0] >= 8
+    tracker.restore(before)
+    late = Bearings.of(np.full(1, 1.0), np.full(1, 0.3), bearing_sd=np.full(1, SD))
+    for cycle in (cycles[0], late, *cycles[1:]):
+        tracker.track(cycle)
+    again = tracker.ranging.history.remember()
+    assert_array_equal(again['count'], heard['count'])
+    assert_array_equal(again['points'], heard['points'])
+
+
 @pytest.mark.parametrize(
     ('values', 'words'),
     [
