@@ -16,7 +16,6 @@ import numpy as np
 from radar_tracker.rotation import find_rate, IN_STEP, TWO_PI
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import wrap_angle
-from tracking_core.remembering import Remembering
 
 ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
@@ -47,7 +46,7 @@ class Beam:
     end_time: float  # of the sector [s]
 
 
-class Antenna(Remembering):
+class Antenna:
     """Follows the rotation of one antenna from message to message."""
 
     def __init__(

@@ -12,6 +12,8 @@ from radar_tracker.tracker import RadarTracker
 from tracking_core.tracker import Tracker
 from tracking_session.snapshots.form import check_form
 
+# What learns replaces its attributes and never changes them in place, so references will do.
+LEARNING = ('antenna', 'sectors', 'turns')
 PLAIN = ('is_known', 'farthest', 'coverage', 'state')
 
 
@@ -20,9 +22,7 @@ def remember(tracker: RadarTracker) -> dict[str, Any]:
     return {
         'dimensions': tracker.radar.dimensions,
         'is_polar': tracker.radar.is_polar,
-        'antenna': tracker.antenna.remember(),
-        'sectors': tracker.sectors.remember(),
-        'turns': tracker.turns.remember() if tracker.turns is not None else {},
+        **{name: dict(_known(tracker, name)) for name in LEARNING},
         **{name: getattr(tracker, name) for name in PLAIN},
     }
 
@@ -44,9 +44,13 @@ def recall(tracker: RadarTracker, memory: dict[str, Any]) -> None:
     fresh.core = Tracker(build_setup(fresh.config, fresh.radar))
     check_form(memory, remember(fresh))
     tracker.radar, tracker.core = fresh.radar, fresh.core
-    tracker.antenna.recall(memory['antenna'])
-    tracker.sectors.recall(memory['sectors'])
-    if tracker.turns is not None:
-        tracker.turns.recall(memory['turns'])
+    for name in LEARNING:
+        _known(tracker, name).update(memory[name])
     for name in PLAIN:
         setattr(tracker, name, memory[name])
+
+
+def _known(tracker: RadarTracker, name: str) -> dict[str, Any]:
+    """Return the attributes themselves of what learns, {} where a tracker has none of it."""
+    learning = getattr(tracker, name)
+    return {} if learning is None else vars(learning)

@@ -20,7 +20,6 @@ from radar_tracker.config import ScanConfig
 from radar_tracker.rotation import PERIODS, TWO_PI
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import wrap_angle
-from tracking_core.remembering import Remembering
 
 SECTORS = np.arange(3, 97)  # of a turn; of two nobody can tell which way the antenna turns
 _FEWEST, _SAMPLES = 12, 1000  # sectors with plots from which a turn is learnt
@@ -33,7 +32,7 @@ _CONVINCING = 3  # messages in a row that show that plots have times after all
 _MEMORY, _TOO_STRANGE = 50.0, 0.3  # messages, and share of plots far from where they should be
 
 
-class SectorClock(Remembering):
+class SectorClock:
     """
     Tells the times of plots in sectors that come without them.
 

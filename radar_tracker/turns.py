@@ -10,11 +10,10 @@ import numpy as np
 
 from radar_tracker.rotation import TWO_PI
 from tracking_core.batches import Plots
-from tracking_core.remembering import Remembering
 from tracking_core.rows import concatenate
 
 
-class Turns(Remembering):
+class Turns:
     """
     Collects sectors until they are a turn.
 
