@@ -5,21 +5,67 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Protocol
 
 from tracking_core.association import ASSOCIATORS, DECIDING
-from tracking_core.composition import Plane, Setup
+from tracking_core.composition import Plane, ResolvingSensor, Setup
 from tracking_core.lifecycle import Lifecycle, LIFECYCLES
-from tracking_core.lifecycle_config import InitiationConfig
+from tracking_core.lifecycle_config import (
+    ExistenceConfig,
+    GateConfig,
+    InitiationConfig,
+    MergeConfig,
+    UnresolvedConfig,
+)
 from tracking_core.unresolved.resolution import Resolution
 
 _SECONDS_PER_HOUR = 3600.0
 _START_SHARE = 0.5  # a new track may be this much less likely than one that is dropped
 
 
+class TrackerConfig(Protocol):
+    """Parameters that all trackers have; those of each lifecycle under its name beside them."""
+
+    @property
+    def gate(self) -> GateConfig:
+        """How far from its prediction a plot may fall."""
+
+    @property
+    def existence(self) -> ExistenceConfig:
+        """How many new contacts there are, and when a track is dropped."""
+
+    @property
+    def merge(self) -> MergeConfig:
+        """When two tracks are one contact."""
+
+    @property
+    def unresolved(self) -> UnresolvedConfig:
+        """What is known of plots of more than one contact."""
+
+    @property
+    def association(self) -> str:
+        """Name in `ASSOCIATORS`."""
+
+    @property
+    def lifecycle(self) -> str:
+        """Name in `LIFECYCLES`, and of its own parameters here."""
+
+    @property
+    def clutter_density(self) -> float:
+        """False plots of one look per unit of plot space; 0: estimated."""
+
+    @property
+    def longest_pause(self) -> float:
+        """After a longer one tracks end [s]; 0: they go on."""
+
+    @property
+    def max_tracks(self) -> int:
+        """New tracks are refused beyond."""
+
+
 def assemble(
-    config: Any,
-    sensor: Any,
+    config: TrackerConfig,
+    sensor: ResolvingSensor,
     planes: tuple[Plane, ...],
     initiation: InitiationConfig,
     resolution: float,
@@ -29,10 +75,10 @@ def assemble(
 
     Parameters
     ----------
-    config : RadarTrackerConfig or SonarTrackerConfig
+    config : TrackerConfig
         Of the tracker.
-    sensor : Radar or Sonar
-        A `Sensor`, and `Resolving` too.
+    sensor : ResolvingSensor
+        What it measures.
     planes : tuple of Plane
         Its filters.
     initiation : InitiationConfig

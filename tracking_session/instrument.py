@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 from msg_adapters.bodies import Bodies
 from msg_adapters.reading import Reading
+from tracking_core.assembly import TrackerConfig
 from tracking_core.batches import Floats, State, Tracks
 from tracking_core.platform import Platform
 from tracking_core.space import Space
@@ -19,7 +20,9 @@ from tracking_session.frames import TrackingFrame
 class SensorTracker(Protocol):
     """Tracks of one sensor."""
 
-    config: Any
+    @property
+    def config(self) -> TrackerConfig:
+        """Return the parameters that all trackers have, and its own."""
 
     @property
     def state(self) -> State:
