@@ -31,6 +31,7 @@ from benchmarks.processes import Memory
 from msg_adapters.message_types import rosbags_types, seconds
 from msg_adapters.table import from_columns, to_columns
 from tracking_core.linalg import is_positive_definite
+from tracking_session.orders import acquire, cancel
 from tracking_session.session import Session
 from tracking_tools.parameter_file import configure
 from tracking_tools.sensors import SENSORS
@@ -140,12 +141,12 @@ class Siege:
 
     def _acquire(self, _: Any) -> str:
         before = self.session.instrument.tracker.state.next_id
-        self.session.acquire(odd_point(self.sensor, self.rng))
+        acquire(self.session, odd_point(self.sensor, self.rng))
         return 'used' if self.session.instrument.tracker.state.next_id > before else 'refused'
 
     def _cancel(self, _: Any) -> str:
         number = int(self.rng.choice([0, 2**31, 2**32 - 1]))
-        self.session.cancel(SimpleNamespace(data=number))
+        cancel(self.session, SimpleNamespace(data=number))
         return 'without a track'
 
     def _check_numbers(self) -> None:

@@ -28,6 +28,7 @@ from tracking_node.inputs import age, arrival_time, Inputs
 from tracking_node.node import explain_silence
 from tracking_node.openings import Openings
 from tracking_node.waiting import Waiting
+from tracking_session.orders import acquire, cancel
 from tracking_session.session import Session
 from tracking_session.snapshots.keeper import Keeper
 
@@ -72,8 +73,8 @@ class LiveTopics:
         subscriptions = {  # of two that are there, the executor takes the first
             'ownship': hear(Odometry, 'ownship', self._on_ownship),
             self._topic: hear(input_class, self._topic, self._on_plots),
-            'acquire': hear(PointStamped, 'acquire', self._order(self._session.acquire)),
-            'cancel': hear(UInt32, 'cancel', self._order(self._session.cancel)),
+            'acquire': hear(PointStamped, 'acquire', self._order(acquire)),
+            'cancel': hear(UInt32, 'cancel', self._order(cancel)),
         }
         self._inputs = Inputs(subscriptions, self._session.ledger)
         self._tracks = tell(PointCloud2, '~/tracks')
@@ -159,9 +160,9 @@ class LiveTopics:
             self._health.ownship_at = time.monotonic()
             self._session.ownship(msg, arrival_time(self._node))
 
-    def _order(self, give: Callable[[Any], None]) -> Callable[[Any], None]:
+    def _order(self, give: Callable[[Session, Any], None]) -> Callable[[Any], None]:
         """Return a callback that hands orders on while the node is active."""
-        return lambda msg: give(msg) if self._is_active else None
+        return lambda msg: give(self._session, msg) if self._is_active else None
 
     def _on_reset(self, _: Any, response: Any) -> Any:
         self._session.reset()

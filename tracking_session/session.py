@@ -4,7 +4,8 @@
 What is done with each message, without a ROS graph and whatever the sensor.
 
 The node hands over what it receives and publishes what comes back, as a replay does with those of
-a bag. Whatever a message contains, the worst that happens is a refusal, counted and said.
+a bag. Whatever a message contains, the worst that happens is a refusal, counted and said. What a
+user orders is in ``orders.py``.
 """
 
 from __future__ import annotations
@@ -14,9 +15,8 @@ from typing import Any
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.message_types import MessageTypes, seconds
 from msg_adapters.ownship import to_platform
-from msg_adapters.points import to_position
 from msg_adapters.reading import Reading
-from tracking_core.batches import Tracks
+from tracking_core.batches import Floats, Tracks
 from tracking_core.platform import StalePlatform
 from tracking_session.frames import TrackingFrame
 from tracking_session.history import History
@@ -173,27 +173,15 @@ class Session:
         except BadMessage as error:
             self.ledger.refuse('ownship', error.reason, error)
 
-    def acquire(self, msg: Any) -> None:
-        """Start a track where a user points."""
-        try:
-            tracker, topic = self.instrument.tracker, self.instrument.topic
-            if self.stamp is None or not tracker.is_ready:
-                raise BadMessage('no scan yet', f'no {topic} have come yet')
-            self.frame.check_point(msg.header.frame_id.lstrip('/'))
-            position = to_position(msg, tracker.sensor_position, self.instrument.reach)
-            if len(self.tracks) >= (most := tracker.config.max_tracks):
-                raise BadMessage('no room', f'there are {most} tracks already (max_tracks)')
-            track_id = tracker.start_track(position, seconds(self.stamp))
-            self._follower.history.close()
-            self.log.info(f'track {track_id} started at {position} m')
-        except BadMessage as error:
-            self.ledger.refuse('acquire', error.reason, error)
+    def start_track(self, position: Floats) -> int:
+        """Start a confirmed track that late plots do not undo; return its id."""
+        track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
+        self._follower.history.close()
+        return track_id
 
-    def cancel(self, msg: Any) -> None:
-        """Drop one track, as a UInt32 says."""
-        track_id = msg.data
-        if self.instrument.tracker.drop_track(track_id):
+    def drop_track(self, track_id: int) -> bool:
+        """Delete one track, which late plots do not undo; return whether it was there."""
+        was_there = self.instrument.tracker.drop_track(track_id)
+        if was_there:
             self._follower.history.close()
-            self.log.info(f'track {track_id} dropped')
-        else:
-            self.ledger.warn('cancel', f'cancel: there is no track {track_id}')
+        return was_there

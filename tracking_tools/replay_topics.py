@@ -13,6 +13,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.interfaces import Connection
 
 from msg_adapters.kinds.menu import check_type
+from tracking_session.orders import acquire, cancel
 from tracking_session.session import Session
 from tracking_tools.bags import absolute, BadBag
 from tracking_tools.sensors import SensorKind, SENSORS
@@ -80,8 +81,8 @@ class Topics:
         takes: dict[str, Callable[[Any, float], Any]] = {
             'plots': session.plots,
             'ownship': session.ownship,
-            'acquire': lambda msg, _: session.acquire(msg),
-            'cancel': lambda msg, _: session.cancel(msg),
+            'acquire': lambda msg, _: acquire(session, msg),
+            'cancel': lambda msg, _: cancel(session, msg),
         }
         names = {'plots': self.sensor}
         return {

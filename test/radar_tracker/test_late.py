@@ -19,6 +19,7 @@ from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
 from tracking_core.config import with_values
 from tracking_session.node_config import LateConfig
+from tracking_session.orders import cancel
 from tracking_tools.scenarios import build
 from tracking_tools.scenarios.messages import send
 
@@ -132,7 +133,7 @@ def test_commands_of_a_user_are_not_undone() -> None:
     messages, session = scans(1, 20), radar()
     tables = run(session, [*messages[:16], messages[17]])
     number = int(tables[-1]['id'][tables[-1]['status'] == 1][0])
-    session.cancel(SimpleNamespace(data=number))
+    cancel(session, SimpleNamespace(data=number))
     run(session, [messages[16], messages[18]])
     assert session.counts['plots'].late_dropped == 1
     assert number not in session.tracks.id

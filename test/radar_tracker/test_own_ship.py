@@ -21,6 +21,7 @@ from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values
 from tracking_core.platform import Platform, PlatformPose
+from tracking_session.orders import acquire
 
 pytest.importorskip('rosbags')
 TYPES = pytest.importorskip('msg_adapters.message_types').rosbags_types()
@@ -265,6 +266,6 @@ def test_point_to_track_is_judged_from_own_ship():
     radar.plots(from_columns(columns, 1001.0, 'radar', TYPES), 0.0)
     for ahead in (10e3, 60e3):
         point = TYPES.Point(x=500e3 + ahead, y=5000e3, z=0.0)
-        radar.acquire(SimpleNamespace(header=TYPES.header(1001.0, 'odom'), point=point))
+        acquire(radar, SimpleNamespace(header=TYPES.header(1001.0, 'odom'), point=point))
     assert len(radar.tracks) == 1
     assert radar.counts['acquire'].refused['bad point'] == 1

@@ -13,6 +13,7 @@ import pytest
 pytest.importorskip('rosbags')
 from benchmarks.healthy_scenes import contacts, flights, HEALTHY, TRUE
 from benchmarks.siege import besiege, Siege, stand
+from tracking_session.orders import acquire
 
 SHORT, LONG = 200, 500_000
 GROWTH = 1.02  # of memory, from the second tenth to the last
@@ -93,6 +94,6 @@ def test_acquire_keeps_max_tracks():
     for number in range(30):
         point = SimpleNamespace(x=1e3 * number, y=1e3, z=0.0)
         header = SimpleNamespace(frame_id='radar')
-        siege.session.acquire(SimpleNamespace(header=header, point=point))
+        acquire(siege.session, SimpleNamespace(header=header, point=point))
     assert len(siege.session.tracks) == 10
     assert siege.session.counts['acquire'].refused['no room'] == 23
