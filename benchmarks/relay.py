@@ -8,7 +8,8 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import PointCloud2
 
-from tracking_node.node import run, subscribe
+from tracking_node.endpoints import subscribe
+from tracking_node.run import run
 
 
 class Relay(Node):

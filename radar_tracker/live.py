@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
-from tracking_node.node import run
+from tracking_node.run import run
 from tracking_node.tracker_node import TrackerNode
 
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
-from tracking_node.node import run
+from tracking_node.run import run
 from tracking_node.tracker_node import TrackerNode
 
 

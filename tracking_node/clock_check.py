@@ -6,8 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from msg_adapters.message_types import seconds
-from tracking_node.node import NANOSECONDS
+from msg_adapters.message_types import NANOSECONDS, seconds
 
 CLOCK_OFF = 10.0  # s between stamps and clock that are worth a word
 

@@ -14,7 +14,8 @@ from collections.abc import Mapping
 import time
 from typing import Any
 
-from tracking_node.node import DEPTH, NANOSECONDS
+from msg_adapters.message_types import NANOSECONDS
+from tracking_node.endpoints import DEPTH
 from tracking_session.ledger import Ledger
 
 Received = tuple[Any, Any]  # a message, and what the transport knows of it

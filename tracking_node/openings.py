@@ -8,13 +8,8 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
-from tracking_node.node import (
-    advertise,
-    advertise_always,
-    on_clock_going_back,
-    steady_timer,
-    subscribe,
-)
+from tracking_node.clocks import on_clock_going_back, steady_timer
+from tracking_node.endpoints import advertise, advertise_always, subscribe
 from tracking_node.transforms import TfTransforms
 
 Callback = Callable[..., Any]

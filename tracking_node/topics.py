@@ -25,8 +25,8 @@ from tracking_node.clock_check import ClockCheck
 from tracking_node.display import Display
 from tracking_node.health import Health, QUIET
 from tracking_node.inputs import age, arrival_time, Inputs
-from tracking_node.node import explain_silence
 from tracking_node.openings import Openings
+from tracking_node.silence import explain_silence
 from tracking_node.waiting import Waiting
 from tracking_session.orders import acquire, cancel
 from tracking_session.session import Session

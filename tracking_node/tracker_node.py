@@ -15,8 +15,8 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 
 from msg_adapters.kinds.menu import available
 from msg_adapters.radar_tracks import available as outputs
-from tracking_node.node import NotStarted
 from tracking_node.parameters import Configs, NodeParameters
+from tracking_node.run import NotStarted
 from tracking_node.topics import LiveTopics, MakeSession
 from tracking_node.transitions import refuse_wrong_transitions, reported
 

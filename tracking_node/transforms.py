@@ -11,7 +11,7 @@ import numpy as np
 
 from tracking_core.batches import Floats
 from tracking_core.platform import Platform
-from tracking_node.node import to_duration, to_time
+from tracking_node.clocks import to_duration, to_time
 from tracking_session.whereabouts import NotYet
 
 LOOKS = 5  # transforms asked for within one message; the platform turns evenly in between

@@ -24,7 +24,7 @@ CYCLE = [
 FAULTY = """
 import sys
 from tracking_node.tracker_node import TrackerNode
-from tracking_node.node import run
+from tracking_node.run import run
 from {node} import live, session
 
 tries = iter([1])

@@ -26,7 +26,7 @@ BURST = 0.15  # s from the first to the last signal
 UNTOLD = """
 import sys
 from threading import Timer
-from tracking_node.node import run
+from tracking_node.run import run
 from radar_tracker import live
 
 def make_node():

@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""What every node of ours shares: how it starts and stops, and how it opens its topics."""
+"""How a process with one node runs: it starts, is told to stop, and ends with an exit code."""
 
 from __future__ import annotations
 
@@ -10,22 +10,15 @@ import sys
 from typing import Any
 
 import rclpy
-from rclpy.clock import Clock, JumpThreshold
-from rclpy.clock_type import ClockType
-from rclpy.duration import Duration
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.qos_overriding_options import QoSOverridingOptions
-from rclpy.time import Time
 from rclpy.utilities import ok, remove_ros_args, try_shutdown
 
+from tracking_node.clocks import steady_timer
 from tracking_node.parameter_blocks import foreign_files, missing_files
 from tracking_node.parameters import BadParameter
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
 LOOK = 1.0  # between two looks at whether the context has ended [s]
-DEPTH = 50  # messages of an input that may wait
-NANOSECONDS = 1_000_000_000
 USAGE = ': no argument of ROS; remap with -r FROM:=TO, set with -p NAME:=VALUE'
 
 
@@ -121,73 +114,3 @@ def _nothing() -> None:
 def _ignore_stops() -> None:
     for number in STOPS:
         signal.signal(number, signal.SIG_IGN)
-
-
-def subscribe(node: Any, kind: Any, topic: str, callback: Callable[..., None]) -> Any:
-    """Return a subscription that any publisher can serve; users may override its QoS."""
-    qos = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
-    options = QoSOverridingOptions.with_default_policies()
-    return node.create_subscription(kind, topic, callback, qos, qos_overriding_options=options)
-
-
-def advertise(node: Any, kind: Any, topic: str) -> Any:
-    """Return a lifecycle publisher that any subscriber can hear; users may override its QoS."""
-    return node.create_lifecycle_publisher(kind, topic, **_output())
-
-
-def advertise_always(node: Any, kind: Any, topic: str) -> Any:
-    """Return a publisher like that of `advertise`, but of a node in any state."""
-    return node.create_publisher(kind, topic, **_output())
-
-
-def _output() -> dict[str, Any]:
-    return {
-        'qos_profile': QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
-        'qos_overriding_options': QoSOverridingOptions.with_default_policies(),
-    }
-
-
-def steady_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:
-    """Return a timer that runs whether or not /clock does; `period` in s."""
-    return node.create_timer(period, callback, clock=Clock(clock_type=ClockType.STEADY_TIME))
-
-
-def on_clock_going_back(node: Any, callback: Callable[[], None]) -> Any:
-    """Call back when simulated time goes back; return a handle to `unregister`."""
-    return node.get_clock().create_jump_callback(
-        JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1)),
-        post_callback=lambda jump: callback() if jump.delta.nanoseconds < 0 else None,
-    )
-
-
-def to_time(time: float) -> Time:
-    """Return a time [s since the epoch] as rclpy has it."""
-    return Time(nanoseconds=round(time * NANOSECONDS))
-
-
-def to_duration(seconds: float) -> Duration:
-    """Return a duration [s] as rclpy has it."""
-    return Duration(nanoseconds=round(seconds * NANOSECONDS))
-
-
-def explain_silence(node: Any, subscription: Any) -> str:
-    """Return what a user must know who waits for output while nothing comes in."""
-    topic, wanted = subscription.topic_name, _type_name(subscription.msg_type)
-    others = [
-        f'{info.node_name} ({info.topic_type}, {_words(info.qos_profile)})'
-        for info in node.get_publishers_info_by_topic(topic)
-    ]
-    seen = f'publishers there: {"; ".join(others)}' if others else 'nobody publishes there'
-    text = f'nothing has come on {topic} ({wanted}, {_words(subscription.qos_profile)}); {seen}'
-    clock = node.get_clock()
-    if clock.ros_time_is_active and clock.now().nanoseconds == 0:
-        text += '; use_sim_time is true, but nothing has come on /clock either'
-    return text
-
-
-def _type_name(message: Any) -> str:
-    return f'{message.__module__.split(".")[0]}/msg/{message.__name__}'
-
-
-def _words(qos: Any) -> str:
-    return f'{qos.reliability.name.lower()}, {qos.durability.name.lower()}'.replace('_', ' ')

@@ -1,0 +1,38 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Time as rclpy has it: its types, timers that never stand still, a clock that goes back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.clock import Clock, JumpThreshold
+from rclpy.clock_type import ClockType
+from rclpy.duration import Duration
+from rclpy.time import Time
+
+from msg_adapters.message_types import NANOSECONDS
+
+
+def steady_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:
+    """Return a timer that runs whether or not /clock does; `period` in s."""
+    return node.create_timer(period, callback, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
+def on_clock_going_back(node: Any, callback: Callable[[], None]) -> Any:
+    """Call back when simulated time goes back; return a handle to `unregister`."""
+    return node.get_clock().create_jump_callback(
+        JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1)),
+        post_callback=lambda jump: callback() if jump.delta.nanoseconds < 0 else None,
+    )
+
+
+def to_time(time: float) -> Time:
+    """Return a time [s since the epoch] as rclpy has it."""
+    return Time(nanoseconds=round(time * NANOSECONDS))
+
+
+def to_duration(seconds: float) -> Duration:
+    """Return a duration [s] as rclpy has it."""
+    return Duration(nanoseconds=round(seconds * NANOSECONDS))

@@ -1,0 +1,30 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Why does nothing come in? Who publishes there, and how."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def explain_silence(node: Any, subscription: Any) -> str:
+    """Return what a user must know who waits for output while nothing comes in."""
+    topic, wanted = subscription.topic_name, _type_name(subscription.msg_type)
+    others = [
+        f'{info.node_name} ({info.topic_type}, {_words(info.qos_profile)})'
+        for info in node.get_publishers_info_by_topic(topic)
+    ]
+    there = f'publishers there: {"; ".join(others)}' if others else 'nobody publishes there'
+    text = f'nothing has come on {topic} ({wanted}, {_words(subscription.qos_profile)}); {there}'
+    clock = node.get_clock()
+    if clock.ros_time_is_active and clock.now().nanoseconds == 0:
+        text += '; use_sim_time is true, but nothing has come on /clock either'
+    return text
+
+
+def _type_name(message: Any) -> str:
+    return f'{message.__module__.split(".")[0]}/msg/{message.__name__}'
+
+
+def _words(qos: Any) -> str:
+    return f'{qos.reliability.name.lower()}, {qos.durability.name.lower()}'.replace('_', ' ')
