@@ -9,7 +9,6 @@ from functools import partial
 import time
 from typing import Any
 
-from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import PointCloud2
@@ -17,16 +16,14 @@ from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
-from msg_adapters.diagnostics import to_diagnostics
 from msg_adapters.kinds.menu import message_class
 from msg_adapters.message_types import rclpy_types
 from tracking_node.body_topics import BodyTopics
 from tracking_node.clock_check import ClockCheck
 from tracking_node.display import Display
-from tracking_node.health import Health, QUIET
 from tracking_node.inputs import age, arrival_time, Inputs
 from tracking_node.openings import Openings
-from tracking_node.silence import explain_silence
+from tracking_node.reporter import Reporter
 from tracking_node.waiting import Waiting
 from tracking_session.orders import acquire, cancel
 from tracking_session.session import Session
@@ -58,9 +55,8 @@ class LiveTopics:
         self._session = make_session(*configs, self._types, node.get_logger())
         self._topic = self._session.instrument.topic
         self._keeper = Keeper(self._session, configs)
-        self._display, self._health = Display(self._types), Health(time.monotonic())
+        self._display, self._is_active = Display(self._types), False
         self._clock_check = ClockCheck(node, self._topic)
-        self._level, self._is_active, self._silence_is_told = '', False, False
         self._openings = Openings(node)
         try:
             self._open(self._openings, message_class(configs[1].input_type))
@@ -80,7 +76,7 @@ class LiveTopics:
         self._tracks = tell(PointCloud2, '~/tracks')
         self._bodies = BodyTopics(openings, self._node_config.output_type, self._types)
         self._markers = tell(MarkerArray, '~/markers')
-        self._diagnostics = openings.tell_always(DiagnosticArray, '/diagnostics')
+        self._reporter = Reporter(self._node, self._session, self._types, openings)
         openings.serve(Trigger, '~/reset', self._on_reset)
         openings.every(1.0, self._tick)
         self._keeper.open(openings.every, arrival_time(self._node))
@@ -102,8 +98,8 @@ class LiveTopics:
 
     def activate(self) -> None:
         """Begin to track."""
-        self._health = Health(time.monotonic())
-        self._is_active, self._silence_is_told = True, False
+        self._is_active = True
+        self._reporter.begin()
 
     def deactivate(self) -> None:
         """Stop listening and clear the screens; tracks are kept."""
@@ -124,20 +120,21 @@ class LiveTopics:
         msg, info = self._inputs.freshest(self._topic, (msg, info), self._node_config.max_delay)
         for odometry in self._inputs.waiting('ownship'):  # it must be known at the plots' time
             self._on_ownship(*odometry)
-        self._health.plots_at, self._silence_is_told = time.monotonic(), True
+        self._reporter.plots_come()
         self._clock_check.compare(msg.header.stamp)
         self._waiting.take(msg, info)
 
     def _use_plots(self, msg: Any, info: Any) -> None:
-        self._health.step_begins()
+        health = self._reporter.health
+        health.step_begins()
         table = self._session.plots(msg, arrival_time(self._node))
         self._keeper.reserve_ids()
         if table is not None:
             self._tracks.publish(table)
             self._show()
-            self._health.latency = age(info)
-        self._health.step_ends()
-        self._report()
+            health.latency = age(info)
+        health.step_ends()
+        self._reporter.report(self._is_active)
 
     def _show(self) -> None:
         """Publish what is for eyes and other tools, while somebody subscribes."""
@@ -157,7 +154,7 @@ class LiveTopics:
             self._inputs.ignore('ownship', info)
         else:
             self._inputs.count('ownship', info)
-            self._health.ownship_at = time.monotonic()
+            self._reporter.health.ownship_at = time.monotonic()
             self._session.ownship(msg, arrival_time(self._node))
 
     def _order(self, give: Callable[[Session, Any], None]) -> Callable[[Any], None]:
@@ -172,28 +169,7 @@ class LiveTopics:
         return response
 
     def _tick(self) -> None:
-        """Once a second: report, draw what was not due before, and explain a silence."""
-        now = time.monotonic()
+        """Once a second: draw what was not due before, and report."""
         if self._session.stamp is not None:
             self._draw()
-        if self._is_active and not self._silence_is_told and now - self._health.started > QUIET:
-            self._silence_is_told = True
-            silent = self._inputs.subscriptions[self._topic]
-            self._node.get_logger().warning(explain_silence(self._node, silent))
-        self._level = ''
-        self._report()
-        self._health.told(self._session)
-
-    def _report(self) -> None:
-        """Publish the diagnostics if their level is not the one that was said last."""
-        now = time.monotonic()
-        active = self._is_active
-        level, text = self._health.level(self._session, now) if active else ('OK', 'not active')
-        if level == self._level:
-            return
-        self._level, values = level, self._health.values(self._session, now)
-        name = f'{self._node.get_fully_qualified_name().lstrip("/")}: tracking'
-        header = self._types.Header(stamp=self._node.get_clock().now().to_msg(), frame_id='')
-        self._diagnostics.publish(
-            to_diagnostics(name, level, text, values=values, header=header, types=self._types)
-        )
+        self._reporter.tick(self._inputs.subscriptions[self._topic], self._is_active)

@@ -1,0 +1,75 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""When does a node say how it does? On /diagnostics, and in the log where nothing comes in."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray
+
+from msg_adapters.diagnostics import to_diagnostics
+from msg_adapters.message_types import MessageTypes
+from tracking_node.health import Health, QUIET
+from tracking_node.openings import Openings
+from tracking_node.silence import explain_silence
+from tracking_session.session import Session
+
+
+class Reporter:
+    """
+    Reports once a second, and at once when the level is another.
+
+    Parameters
+    ----------
+    node : LifecycleNode
+        Whose health it is.
+    session : Session
+        What happened to its messages.
+    types : MessageTypes
+        Classes of the messages.
+    openings : Openings
+        Of the node; they close the topic.
+
+    """
+
+    def __init__(
+        self, node: Any, session: Session, types: MessageTypes, openings: Openings
+    ) -> None:
+        self._node, self._session, self._types = node, session, types
+        self._diagnostics = openings.tell_always(DiagnosticArray, '/diagnostics')
+        self._level = ''  # that was said last
+        self.begin()
+
+    def begin(self) -> None:
+        """Begin anew, as the node does when it becomes active."""
+        self.health, self._silence_is_told = Health(time.monotonic()), False
+
+    def plots_come(self) -> None:
+        """Take note that plots have just come."""
+        self.health.plots_at, self._silence_is_told = time.monotonic(), True
+
+    def tick(self, subscription: Any, is_active: bool) -> None:
+        """Report once a second; say once why nothing comes on the subscription of the plots."""
+        silent = time.monotonic() - self.health.started
+        if is_active and not self._silence_is_told and silent > QUIET:
+            self._silence_is_told = True
+            self._node.get_logger().warning(explain_silence(self._node, subscription))
+        self._level = ''
+        self.report(is_active)
+        self.health.told(self._session)
+
+    def report(self, is_active: bool) -> None:
+        """Publish the diagnostics if their level is not the one that was said last."""
+        now, level, text = time.monotonic(), 'OK', 'not active'
+        if is_active:
+            level, text = self.health.level(self._session, now)
+        if level == self._level:
+            return
+        self._level, values = level, self.health.values(self._session, now)
+        name = f'{self._node.get_fully_qualified_name().lstrip("/")}: tracking'
+        header = self._types.Header(stamp=self._node.get_clock().now().to_msg(), frame_id='')
+        self._diagnostics.publish(
+            to_diagnostics(name, level, text, values=values, header=header, types=self._types)
+        )
