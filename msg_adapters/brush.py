@@ -18,7 +18,7 @@ class Brush:
         self._image = types.CompressedImage(header=header, format='', data=types.to_bytes(b''))
         self._mesh = types.MeshFile(filename='', data=types.to_bytes(b''))
         self._origin = types.Point(x=0.0, y=0.0, z=0.0)
-        self._level = types.Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
+        self._upright = types.Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
         self._unit = types.Vector3(x=1.0, y=1.0, z=1.0)
         self._white = types.ColorRGBA(r=1.0, g=1.0, b=1.0, a=1.0)
 
@@ -45,7 +45,7 @@ class Brush:
             action=getattr(Marker, kind) if is_action else Marker.ADD,
             pose=self.types.Pose(
                 position=self._origin if position is None else self._vector('Point', position),
-                orientation=self._level if turn is None else self._turned(turn),
+                orientation=self._upright if turn is None else self._turned(turn),
             ),
             scale=self._unit if scale is None else self._vector('Vector3', scale),
             color=self._white if color is None else self._paint(color),

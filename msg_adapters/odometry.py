@@ -52,12 +52,12 @@ def _message(row: Any, frame: str, types: MessageTypes) -> Any:
 def _covariances(covariance: Floats, course: Floats, speed: Floats) -> tuple[Floats, Floats]:
     """Return the covariances (T, 36) of pose and of twist, the latter in the child's axes."""
     rows = len(covariance)
-    turn = np.zeros((rows, 3, 3))
-    turn[:, 0, 0] = turn[:, 1, 1] = np.cos(course)
-    turn[:, 0, 1], turn[:, 1, 0] = np.sin(course), -np.sin(course)
-    turn[:, 2, 2] = 1.0
+    rotation = np.zeros((rows, 3, 3))
+    rotation[:, 0, 0] = rotation[:, 1, 1] = np.cos(course)
+    rotation[:, 0, 1], rotation[:, 1, 0] = np.sin(course), -np.sin(course)
+    rotation[:, 2, 2] = 1.0
     known = np.where(np.isnan(covariance), UNKNOWN, covariance)
-    velocity = turn @ known[:, 3:, 3:] @ turn.swapaxes(1, 2)
+    velocity = rotation @ known[:, 3:, 3:] @ rotation.swapaxes(1, 2)
     pose, twist = np.zeros((rows, 6, 6)), np.zeros((rows, 6, 6))
     pose[:, :3, :3], twist[:, :3, :3] = known[:, :3, :3], velocity
     # To first order the course errs by the velocity error across it over the speed.

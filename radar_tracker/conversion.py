@@ -95,16 +95,16 @@ def unbiased(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
     cb, sb, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
     position = np.stack([r * ce * cb / lb / le, r * ce * sb / lb / le, r * se / le], axis=1)
     square, power = r**2, r**2 + variance[:, 0]
-    level = 1.0 + le2 * np.cos(2.0 * elevation)
+    ce2 = 1.0 + le2 * np.cos(2.0 * elevation)  # twice the mean of cos^2
     plane = (1.0 / (lb * le) ** 2 - 2.0) * square * ce**2
     tilt = (1.0 / (lb * le**2) - 1.0 / lb - lb) * square * se * ce
     tilt = tilt + 0.5 * power * lb * le2 * np.sin(2.0 * elevation)
     R = np.empty((len(r), 3, 3))
-    R[:, 0, 0] = plane * cb**2 + 0.25 * power * (1.0 + lb2 * np.cos(2.0 * azimuth)) * level
-    R[:, 1, 1] = plane * sb**2 + 0.25 * power * (1.0 - lb2 * np.cos(2.0 * azimuth)) * level
+    R[:, 0, 0] = plane * cb**2 + 0.25 * power * (1.0 + lb2 * np.cos(2.0 * azimuth)) * ce2
+    R[:, 1, 1] = plane * sb**2 + 0.25 * power * (1.0 - lb2 * np.cos(2.0 * azimuth)) * ce2
     R[:, 2, 2] = (1.0 / le**2 - 2.0) * square * se**2
     R[:, 2, 2] += 0.5 * power * (1.0 - le2 * np.cos(2.0 * elevation))
-    R[:, 0, 1] = plane * sb * cb + 0.25 * power * lb2 * np.sin(2.0 * azimuth) * level
+    R[:, 0, 1] = plane * sb * cb + 0.25 * power * lb2 * np.sin(2.0 * azimuth) * ce2
     R[:, 0, 2], R[:, 1, 2] = tilt * cb, tilt * sb
     R[:, 1, 0], R[:, 2, 0], R[:, 2, 1] = R[:, 0, 1], R[:, 0, 2], R[:, 1, 2]
     d = polar.shape[1]

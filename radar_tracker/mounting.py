@@ -28,8 +28,8 @@ def sensor_pose(pose: PlatformPose, mount: MountConfig) -> tuple[Floats | None, 
     if mount.yaw == 0.0 and not pose.orientation[:, :3].any():
         return None, pose.position + place
     platform, c, s = pose.rotation, np.cos(mount.yaw), np.sin(mount.yaw)
-    turn = platform @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return turn, pose.position + platform @ place
+    rotation = platform @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return rotation, pose.position + platform @ place
 
 
 def arm_velocity(pose: PlatformPose, mount: MountConfig) -> Floats:
@@ -40,7 +40,7 @@ def arm_velocity(pose: PlatformPose, mount: MountConfig) -> Floats:
     return np.asarray(np.einsum('mij,mj->mi', pose.rotation, np.cross(pose.turn_rate, arm)))
 
 
-def levelled(turn: Floats, place: Floats) -> Floats:
+def levelled(rotation: Floats, place: Floats) -> Floats:
     """
     Return rotations (M, 3, 3) about the vertical for what a fan beam saw at places (M, 3).
 
@@ -48,8 +48,8 @@ def levelled(turn: Floats, place: Floats) -> Floats:
     normal and the direction on the deck span it; the range is the one over the ground, however
     the platform rolls.
     """
-    normal = turn[:, :, 2]
-    ray = np.einsum('mij,mj->mi', turn[:, :, :2], place[:, :2])
+    normal = rotation[:, :, 2]
+    ray = np.einsum('mij,mj->mi', rotation[:, :, :2], place[:, :2])
     ray = ray - (ray[:, 2] / np.maximum(normal[:, 2], _LEAST_UPRIGHT))[:, None] * normal
     angle = np.arctan2(ray[:, 1], ray[:, 0]) - np.arctan2(place[:, 1], place[:, 0])
     return np.asarray(Rotation.from_euler('z', angle[:, None]).as_matrix())
@@ -69,10 +69,10 @@ def in_sensor_axes(plots: Plots, pose: PlatformPose, mount: MountConfig) -> Plot
         How the sensor is turned.
 
     """
-    turn, _ = sensor_pose(pose, mount)
-    if turn is None:
+    rotation, _ = sensor_pose(pose, mount)
+    if rotation is None:
         return plots
-    back = np.swapaxes(turn, 1, 2)
+    back = np.swapaxes(rotation, 1, 2)
     e, a = np.nan_to_num(plots.elevation), plots.azimuth
     ray = np.stack([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)], axis=1)
     x, y, z = np.einsum('mij,mj->mi', back, ray).T
@@ -80,9 +80,9 @@ def in_sensor_axes(plots: Plots, pose: PlatformPose, mount: MountConfig) -> Plot
     elevation = np.where(np.isnan(plots.elevation), np.nan, elevation)
     place, noise = _turned_back(back, plots.position), plots.position_covariance.copy()
     # What the noise has to do with heights, which may be NaN, is left out and does not spread.
-    level = Rotation.from_euler('z', -(pose.yaw + mount.yaw)[:, None]).as_matrix()[:, :2, :2]
-    noise[:, :2, :] = level @ noise[:, :2, :]
-    noise[:, :, :2] = noise[:, :, :2] @ np.swapaxes(level, 1, 2)
+    ground_back = Rotation.from_euler('z', -(pose.yaw + mount.yaw)[:, None]).as_matrix()[:, :2, :2]
+    noise[:, :2, :] = ground_back @ noise[:, :2, :]
+    noise[:, :, :2] = noise[:, :, :2] @ np.swapaxes(ground_back, 1, 2)
     return replace(
         plots, azimuth=azimuth, elevation=elevation, position=place, position_covariance=noise
     )
@@ -102,13 +102,13 @@ def _turned_back(back: Floats, position: Floats) -> Floats:
 def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Coverage:
     """Turn what the antenna swept into the tracking frame; `ends` are the first and last pose."""
     heading = ends.yaw + sensor.mount.yaw
-    turn = float(wrap_angle(heading[1] - heading[0]))
+    yawed = float(wrap_angle(heading[1] - heading[0]))
     x, y, z = sensor_pose(ends, sensor.mount)[1][1]
     return Coverage(
         start_time=sweep.start_time,
         end_time=sweep.end_time,
         start_azimuth=sweep.start_azimuth + float(heading[0]),
-        sweep=sweep.angle + turn if sweep.angle else 0.0,
+        sweep=sweep.angle + yawed if sweep.angle else 0.0,
         contiguous=sweep.contiguous,
         sensor_position=(float(x), float(y), float(z)),
         range_min=sensor.range_min,

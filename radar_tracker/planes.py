@@ -22,38 +22,38 @@ from tracking_core.estimators import (
 from tracking_core.mode_chain import ModeChain
 from tracking_core.motion import ConstantVelocity, CoordinatedTurn
 
-_LEVEL, _HEIGHT = (0, 1), (2,)
+_GROUND, _HEIGHT = (0, 1), (2,)
 
 
 def build_planes(config: RadarTrackerConfig, dimensions: int) -> tuple[Plane, ...]:
     """Return the horizontal plane and, for a 3-D radar, the vertical one, or both as one."""
     if config.estimator in _ALPHA_BETA:
         make = _ALPHA_BETA[config.estimator]
-        level = Plane(make(config.alpha_beta, len(_LEVEL)), _LEVEL)
+        ground = Plane(make(config.alpha_beta, len(_GROUND)), _GROUND)
         height = Plane(make(config.alpha_beta, len(_HEIGHT)), _HEIGHT)
-        return (level,) if dimensions == 2 else (level, height)
+        return (ground,) if dimensions == 2 else (ground, height)
     horizontal = _horizontal(config)
     if dimensions == 2:
-        return (Plane(horizontal, _LEVEL),)
+        return (Plane(horizontal, _GROUND),)
     vertical = _vertical(config)
     if config.estimator == 'markov_jump_joint':
-        return (Plane(MarkovJumpJoint(horizontal, vertical), _LEVEL + _HEIGHT),)
-    return Plane(horizontal, _LEVEL), Plane(vertical, _HEIGHT)
+        return (Plane(MarkovJumpJoint(horizontal, vertical), _GROUND + _HEIGHT),)
+    return Plane(horizontal, _GROUND), Plane(vertical, _HEIGHT)
 
 
 def _horizontal(config: RadarTrackerConfig) -> MarkovJump:
-    level = config.motion.horizontal
+    horizontal = config.motion.horizontal
     motions = tuple(
         CoordinatedTurn(rate, sd) if rate else ConstantVelocity(sd)
-        for rate, sd in zip(level.turn_rate, level.acceleration_sd, strict=True)
+        for rate, sd in zip(horizontal.turn_rate, horizontal.acceleration_sd, strict=True)
     )
-    return MarkovJump(motions, ModeChain(level.sojourn_time))
+    return MarkovJump(motions, ModeChain(horizontal.sojourn_time))
 
 
 def _vertical(config: RadarTrackerConfig) -> MarkovJump:
-    height = config.motion.vertical
-    motions = tuple(ConstantVelocity(sd, axes=1) for sd in height.acceleration_sd)
-    return MarkovJump(motions, ModeChain(height.sojourn_time))
+    vertical = config.motion.vertical
+    motions = tuple(ConstantVelocity(sd, axes=1) for sd in vertical.acceleration_sd)
+    return MarkovJump(motions, ModeChain(vertical.sojourn_time))
 
 
 def _imm(c: AlphaBetaConfig, axes: int) -> Estimator:

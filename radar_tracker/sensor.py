@@ -135,12 +135,12 @@ class Radar:
         """
         d = self.dimensions
         local, covariance = self._local(plots)
-        turn, origin = mounting.sensor_pose(pose, self.config.mount)
+        rotation, origin = mounting.sensor_pose(pose, self.config.mount)
         offset = local
-        if turn is not None:
-            turn = turn if d == 3 else mounting.levelled(turn, local)
-            offset = np.einsum('mij,mj->mi', turn, local, order='F')
-            covariance = turn @ covariance @ np.swapaxes(turn, 1, 2)
+        if rotation is not None:
+            rotation = rotation if d == 3 else mounting.levelled(rotation, local)
+            offset = np.einsum('mij,mj->mi', rotation, local, order='F')
+            covariance = rotation @ covariance @ np.swapaxes(rotation, 1, 2)
         position = offset + origin
         covariance = covariance + mounting.platform_noise(pose, offset)
         if d == 3:

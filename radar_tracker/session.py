@@ -105,11 +105,11 @@ class RadarInstrument:
                 return plots
             return in_sensor_axes(plots, pose_at(platform, plots.time), sensor.mount)
 
-        seen, sectors = relative(plots), self.tracker.sectors
-        times = sectors.times(seen)
-        if times is not seen.time:
-            seen = relative(replace(plots, time=times))
-        return self.tracker.track(seen, platform, sectors.beam)
+        local, sectors = relative(plots), self.tracker.sectors
+        times = sectors.times(local)
+        if times is not local.time:
+            local = relative(replace(plots, time=times))
+        return self.tracker.track(local, platform, sectors.beam)
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table."""

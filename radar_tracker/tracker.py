@@ -66,7 +66,7 @@ class RadarTracker:
         self.core.state = state
 
     @property
-    def turn(self) -> float:
+    def turn_time(self) -> float:
         """Time of one turn of the antenna [s], 0 if it is not known to turn."""
         rate = abs(self.antenna.rotation_rate)
         return TWO_PI / rate if rate else 0.0

@@ -137,9 +137,9 @@ class Ranging:
         best = fit(legs, self.config.range_min, self.config.range_max)
         verdict = judge(best, legs, self.config)
         self.history.forget_older_half(rows[verdict.bent])
-        seen = verdict.observable
-        found.state[rows[seen]] = verdict.state[seen]
-        found.covariance[rows[seen]] = verdict.covariance[seen]
+        observable = verdict.observable
+        found.state[rows[observable]] = verdict.state[observable]
+        found.covariance[rows[observable]] = verdict.covariance[observable]
 
     def estimates(self, tracks: Tracks, coverage: Coverage) -> RangeEstimates:
         """Return what is known of every track at its time, seen from where the sensor is."""

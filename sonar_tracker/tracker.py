@@ -64,7 +64,7 @@ class SonarTracker:
         self.core.state = state
 
     @property
-    def turn(self) -> float:
+    def turn_time(self) -> float:
         """0: every message is a scan."""
         return 0.0
 

@@ -51,14 +51,16 @@ class History:
         """Return whether a message of this stamp [s] comes too late."""
         return stamp < self._floor
 
-    def add(self, step: Step, turn: float) -> None:
-        """Keep one more message; `turn` is that of the antenna [s], 0 if messages are scans."""
+    def add(self, step: Step, turn_time: float) -> None:
+        """Keep one more message; `turn_time` is the antenna's [s], 0 if messages are scans."""
         if self._floor == -np.inf:
             self._floor = step.stamp - self._margin
         self._steps += (step,)
-        oldest = step.stamp - self._scans * turn
+        oldest = step.stamp - self._scans * turn_time
         while len(self._steps) > self._scans and (
-            self._steps[0].stamp < oldest or not (self._scans and turn) or len(self._steps) > MOST
+            self._steps[0].stamp < oldest
+            or not (self._scans and turn_time)
+            or len(self._steps) > MOST
         ):
             self._floor, self._steps = self._steps[0].stamp, self._steps[1:]
 

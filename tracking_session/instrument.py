@@ -36,7 +36,7 @@ class SensorTracker(Protocol):
         """Return all tracks."""
 
     @property
-    def turn(self) -> float:
+    def turn_time(self) -> float:
         """Return the time of one turn of the antenna [s], 0 if it is not known to turn."""
 
     @property

@@ -42,7 +42,7 @@ class Follower:
         tracker = self._instrument.tracker
         step = Step(plots.stamp, tracker.save(), plots, platform)
         tracks = self._instrument.track(plots, platform, frame)
-        self.history.add(step, tracker.turn)
+        self.history.add(step, tracker.turn_time)
         return tracks
 
     def insert(self, plots: Any, platform: Platform | None, frame: TrackingFrame) -> None:
