@@ -97,7 +97,7 @@ def assemble(
         initiation=initiation if lifecycle.follows_faint else replace(initiation, faint_starts=0),
         gate_probability=config.gate.probability,
         clutter_density=config.clutter_density,
-        new_contacts=config.existence.new_contacts / _SECONDS_PER_HOUR,
+        arrival_rate=config.existence.new_contacts / _SECONDS_PER_HOUR,
         least_existence=_START_SHARE * config.existence.drop,
         merge=config.merge,
         max_tracks=config.max_tracks,

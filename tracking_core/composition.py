@@ -61,7 +61,7 @@ class Setup:
     initiation: InitiationConfig
     gate_probability: float  # P_G
     clutter_density: float  # per unit of plot space and look; 0: estimated
-    new_contacts: float  # expected in the whole coverage [1/s]
+    arrival_rate: float  # of new contacts, expected in the whole coverage [1/s]
     least_existence: float  # of a new track
     merge: MergeConfig
     max_tracks: int

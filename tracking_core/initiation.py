@@ -148,8 +148,8 @@ def _within_reach(
     step = space.shortest(take_rows(fresh.position, new) - take_rows(seeds.position, old))
     noise = _NOISE_SIGMAS * np.sqrt(take_rows(variances[0], old) + take_rows(variances[1], new))
     slack = np.maximum(np.abs(step) - noise, 0.0)
-    level = slack[:, 0] if d == 1 else np.hypot(slack[:, 0], slack[:, 1])
-    fits = (level <= config.speed_max * dt) & (dt > shortest)
+    horizontal = slack[:, 0] if d == 1 else np.hypot(slack[:, 0], slack[:, 1])
+    fits = (horizontal <= config.speed_max * dt) & (dt > shortest)
     for axis in range(2, d):
         fits &= slack[:, axis] <= config.climb_max * dt
     kept = fits.nonzero()[0]

@@ -172,7 +172,7 @@ class Tracker:
         clutter = self.setup.clutter_density or state.clutter_density
         if clutter == 0.0:
             clutter, _ = estimate_density(0.0, 0.0, len(scan), volume, 1.0)
-        return Density(clutter, self.setup.new_contacts * interval / volume, state.leniency)
+        return Density(clutter, self.setup.arrival_rate * interval / volume, state.leniency)
 
     def _clutter(self, state: State, scan: Scan, seen: Look, used: float) -> tuple[float, float]:
         """Return the estimate of the clutter density, and from how many looks it is."""

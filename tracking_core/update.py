@@ -89,13 +89,13 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     waiting[gated.pairs.plot[~due[gated.pairs.track]]] = True
 
     # A track that waits is not seen now; it stays as it was.
-    seen = change(near, detection=np.where(due, near.detection, 0.0))
-    gated = take(gated, (seen.detection > 0.0)[gated.pairs.track])
-    gated, common = add_common(seen, gated, scan, setup)
-    existence = seen.tracks.existence_probability
-    share = share_plots(existence, seen.detection, gated, scan, setup, density, common)
-    updated, ended, broken = _update(seen, gated, share, scan, setup, density.leniency)
-    ended |= seen.crowd * density.total > _LOST  # it follows nobody any more
+    predicted = change(near, detection=np.where(due, near.detection, 0.0))
+    gated = take(gated, (predicted.detection > 0.0)[gated.pairs.track])
+    gated, common = add_common(predicted, gated, scan, setup)
+    existence = predicted.tracks.existence_probability
+    share = share_plots(existence, predicted.detection, gated, scan, setup, density, common)
+    updated, ended, broken = _update(predicted, gated, share, scan, setup, density.leniency)
+    ended |= predicted.crowd * density.total > _LOST  # it follows nobody any more
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
     lives = due & ~(ended | broken)
@@ -145,30 +145,30 @@ def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:
 
 
 def _update(
-    seen: Predicted, gated: Gated, share: Share, scan: Scan, setup: Setup, leniency: float
+    predicted: Predicted, gated: Gated, share: Share, scan: Scan, setup: Setup, leniency: float
 ) -> tuple[Tracks, Bools, Bools]:
     """Return the updated tracks, which have ended, and which are no longer sound."""
-    track, T = gated.pairs.track, len(seen.row)
+    track, T = gated.pairs.track, len(predicted.row)
     planes = tuple(
         plane.estimator.update(mixture, track, innovations, share.association)
         for plane, mixture, innovations in zip(
-            setup.planes, seen.planes, gated.innovations, strict=True
+            setup.planes, predicted.planes, gated.innovations, strict=True
         )
     )
     found = share.found
-    hit = setup.lifecycle.hits(found, seen.planes[0], planes[0])
+    hit = setup.lifecycle.hits(found, predicted.planes[0], planes[0])
     weighted = sum_by_track(share.association.probability * gated.distance, track, T)
     tracks = change(
-        count_looks(seen.tracks, hit),
+        count_looks(predicted.tracks, hit),
         planes=planes,
         existence_probability=share.existence_probability,
-        gate_size=seen.gates.three_sigma,
-        gate_volume=seen.gates.volume,
-        level=_follow_level(seen.tracks, gated, share, scan),
+        gate_size=predicted.gates.three_sigma,
+        gate_volume=predicted.gates.volume,
+        level=_follow_level(predicted.tracks, gated, share, scan),
         nis=np.where(found > 0.5, weighted / np.maximum(found, 0.5), np.nan),
     )
     confirmed, ended = setup.lifecycle.judge(tracks, share.existence_probability, leniency)
-    ended |= has_left(tracks, seen.detection > 0.0)
+    ended |= has_left(tracks, predicted.detection > 0.0)
     sound = [is_positive_definite(mixture.covariance).all(axis=1) for mixture in planes]
     return change(tracks, confirmed=confirmed), ended, ~np.logical_and.reduce(sound)
 

@@ -68,7 +68,7 @@ def share_of_best(gain: Floats) -> Floats:
     best, taken = _best(gain.reshape(R * K, C), R, K)
     weight = np.exp(np.concatenate(best))
     weight /= weight.sum(axis=0)
-    weights = np.split(weight, np.cumsum([len(level) for level in best[:-1]]))
+    weights = np.split(weight, np.cumsum([len(layer) for layer in best[:-1]]))
     return _follow(weights, taken, gain.shape)
 
 
@@ -101,8 +101,8 @@ def _best(gain: Floats, rows: int, columns: int) -> tuple[list[Floats], list[Int
         value += gain.take(step.pair, axis=0)
         taken.append(value.argmax(axis=0))
         best.append(value.max(axis=0))
-    top = np.max([level.max(axis=0) for level in best], axis=0)
-    return [level - top for level in best], taken
+    top = np.max([layer.max(axis=0) for layer in best], axis=0)
+    return [layer - top for layer in best], taken
 
 
 @dataclass(frozen=True)

@@ -34,11 +34,11 @@ class MarkovJumpJoint:
 
     @cached_property
     def _filter(self) -> MarkovJump:
-        level, height = self.horizontal, self.vertical
+        ground, height = self.horizontal, self.vertical
         return MarkovJump(
-            tuple(StackedMotion(g, b) for g in level.motions for b in height.motions),
-            ProductChain(level.chain, height.chain),
-            tuple(np.kron(_initial(level), _initial(height))),
+            tuple(StackedMotion(g, b) for g in ground.motions for b in height.motions),
+            ProductChain(ground.chain, height.chain),
+            tuple(np.kron(_initial(ground), _initial(height))),
         )
 
     @property

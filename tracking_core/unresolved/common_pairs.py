@@ -60,8 +60,8 @@ def add_common(
     first, second, chance = near_pairs(places, scan.coverage, resolution)
     # Only what is sure and in sight can hide something else: a doubtful track near a contact
     # would live on its plots.
-    seen = passed.tracks.confirmed & (passed.detection > 0.0)
-    likely = seen[first] & seen[second]
+    can_hide = passed.tracks.confirmed & (passed.detection > 0.0)
+    likely = can_hide[first] & can_hide[second]
     if not likely.any():
         return gated, None
     links = Links(first[likely], second[likely], chance[likely])
