@@ -61,6 +61,7 @@ def to_plots(
     sensor: Convention,
     max_plots: int,
     overrides: Mapping[str, str] | None = None,
+    longest: float = np.inf,
 ) -> Reading[Plots]:
     """
     Return the plots of a PointCloud2.
@@ -75,6 +76,8 @@ def to_plots(
         A message with more rows is refused.
     overrides : mapping, optional
         Our field names to theirs.
+    longest : float
+        Time between a plot and its message's stamp that can be true [s]; others are dropped.
 
     Raises
     ------
@@ -97,7 +100,7 @@ def to_plots(
     doubtful |= {'covariance that is none': odd} if odd else {}
     plots = _assemble({**read, **told}, covariance, polar, message, sensor)
     checks = plot_checks(plots, polar, sensor.range_min, sensor.range_max)
-    keep, dropped = choose_rows(plots, checks)
+    keep, dropped = choose_rows(plots, checks, longest)
     refuse_if_useless(keep, dropped)
     plots = take(plots, keep)
     if polar:

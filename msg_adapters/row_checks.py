@@ -46,16 +46,19 @@ def usable_values(read: Mapping[str, Floats]) -> tuple[dict[str, Floats], dict[s
     return usable, doubtful
 
 
-def choose_rows(rows: Plots | Bearings, checks: Iterable[Check]) -> tuple[Bools, dict[str, int]]:
+def choose_rows(
+    rows: Plots | Bearings, checks: Iterable[Check], longest: float = np.inf
+) -> tuple[Bools, dict[str, int]]:
     """
     Return which rows to use (M,), and how many were dropped for each reason.
 
-    A row is counted once, for the first reason that holds; times are checked last.
+    A row is counted once, for the first reason that holds; times are checked last: no plot is
+    more than `longest` [s] off the stamp of its message, nor more than `MAX_OFFSET`.
     """
     keep = np.ones(len(rows), bool)
     dropped = {}
     with np.errstate(invalid='ignore', over='ignore'):
-        for reason, wrong in (*checks, *_time_checks(rows)):
+        for reason, wrong in (*checks, *_time_checks(rows, min(longest, MAX_OFFSET))):
             count = int(np.count_nonzero(wrong & keep))
             if count:
                 dropped[reason] = count
@@ -63,10 +66,10 @@ def choose_rows(rows: Plots | Bearings, checks: Iterable[Check]) -> tuple[Bools,
     return keep, dropped
 
 
-def _time_checks(rows: Plots | Bearings) -> Iterator[Check]:
+def _time_checks(rows: Plots | Bearings, longest: float) -> Iterator[Check]:
     yield 'time is not a number', ~np.isfinite(rows.time)
-    late = np.abs(rows.time - rows.stamp) > MAX_OFFSET
-    yield f'time more than {MAX_OFFSET:g} s off the stamp', late
+    late = np.abs(rows.time - rows.stamp) > longest
+    yield f'time more than {longest:.3g} s off the stamp', late
 
 
 def bearing_checks(bearing: Floats) -> Iterator[Check]:

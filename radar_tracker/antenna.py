@@ -20,8 +20,10 @@ from tracking_core.linalg import wrap_angle
 ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
 _SAMPLES = 400  # plots remembered while learning
+_INTERVALS = 5  # between messages, remembered
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _STILL = 1e-9  # part of the rate by which it may change and still stand
+_LONGEST = 2.0  # messages or turns that a plot may be off the stamp of its message
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
 
 
@@ -63,9 +65,9 @@ class Antenna:
         self._reference = time_reference
         self._rate = 0.0  # [rad/s], 0: not known
         self._time, self._azimuth = np.zeros(0), np.zeros(0)
-        self._start = np.nan  # of the last message [s]
+        self._stamp = self._start = np.nan  # of the last message [s]
         self._end = np.nan
-        self._interval = 0.0  # between messages [s]
+        self._intervals = np.zeros(0)  # between the stamps of the last messages [s]
         self._tries = 0
         self._stares = stares  # told so, or plots of one moment came from different directions
 
@@ -73,6 +75,19 @@ class Antenna:
     def rotation_rate(self) -> float:
         """Learnt rate [rad/s], anticlockwise positive; 0 if the sensor does not rotate."""
         return self._rate
+
+    @property
+    def longest_offset(self) -> float:
+        """Time between a plot and the stamp of its message that can be true [s]."""
+        if not self._rate:
+            return np.inf
+        return _LONGEST * max(TWO_PI / abs(self._rate), self._interval)
+
+    @property
+    def _interval(self) -> float:
+        """How long it usually is from message to message [s], lost ones aside; 0: not known."""
+        middle = (len(self._intervals) - 1) // 2
+        return float(np.sort(self._intervals)[middle]) if len(self._intervals) else 0.0
 
     def follow(self, plots: Plots, azimuth: Floats, beam: Beam | None = None) -> Sweep:
         """
@@ -90,10 +105,10 @@ class Antenna:
         """
         start = min(plots.stamp, float(plots.time.min(initial=np.inf)))
         latest = max(plots.stamp, float(plots.time.max(initial=-np.inf)))
-        if start > self._start:
-            interval = start - self._start
-            longest = 1.5 * self._interval if self._interval else np.inf
-            self._interval = interval if interval < longest else self._interval
+        if plots.stamp > self._stamp:
+            interval = plots.stamp - self._stamp
+            self._intervals = np.append(self._intervals, interval)[-_INTERVALS:]
+        self._stamp = plots.stamp
         if beam is None:
             self._learn(plots.time, azimuth)
         else:

@@ -76,7 +76,8 @@ class RadarInstrument:
     def read(self, msg: Any, mapping: Mapping[str, str]) -> Reading[Plots]:
         """Return the plots of a message, all polar or all Cartesian from first to last."""
         config = self.tracker.config
-        reading = to_plots(msg, config.sensor, config.max_plots, self._overrides)
+        longest = self.tracker.antenna.longest_offset
+        reading = to_plots(msg, config.sensor, config.max_plots, self._overrides, longest)
         both = mapping and len(reading.plots)
         if both and ('azimuth' in reading.mapping) != ('azimuth' in mapping):
             raise BadMessage(

@@ -102,3 +102,40 @@ def test_same_messages_give_the_same_bytes():
     tables = [[bytes(radar.plots(scan(n), 0.0).data) for n in range(12)] for radar in
               (session(), session())]  # fmt: skip
     assert tables[0] == tables[1]
+
+
+def turn(number, off=0.0):
+    """Return a turn of an antenna that sees five contacts at rest; the third's time is off."""
+    part = np.array([0.05, 0.15, 0.3, 0.45, 0.7])
+    time = PERIOD * part
+    time[2] += off
+    columns = {'time': time, 'range': np.full(5, 2e4), 'azimuth': 2.0 * np.pi * part}
+    return from_columns(columns, 1000.0 + PERIOD * number, 'radar', TYPES)
+
+
+@pytest.mark.parametrize('off', [-50.0, -20.0, -10.0, 7.0, 20.0, 50.0])
+def test_one_wrong_time_does_not_stop_the_antenna(off):
+    """Nobody else is missed for it, though the antenna cannot have turned on for so long."""
+    radar = session()
+    for number in range(12):
+        before = to_columns(radar.plots(turn(number), 0.0), 10_000)
+    radar.plots(turn(12, off), 0.0)
+    for number in range(13, 15):
+        after = to_columns(radar.plots(turn(number), 0.0), 10_000)
+    assert after['id'].tolist() == before['id'].tolist()
+    gained = after['hits'] - before['hits']
+    assert gained.tolist() == [3, 3, 2, 3, 3]
+    assert radar.ledger.counts['plots'].dropped == {'time more than 8 s off the stamp': 1}
+
+
+@pytest.mark.parametrize('off', [-5.0, -3.0, 3.0, 5.0])
+def test_wrong_time_within_a_turn_or_two_costs_no_id(off):
+    """Such a time could be true; what it says of the antenna is soon outvoted."""
+    radar = session()
+    for number in range(12):
+        before = to_columns(radar.plots(turn(number), 0.0), 10_000)
+    radar.plots(turn(12, off), 0.0)
+    for number in range(13, 19):
+        after = to_columns(radar.plots(turn(number), 0.0), 10_000)
+    assert after['id'].tolist() == before['id'].tolist()
+    assert (after['hits'] - before['hits'] >= 5).all()
