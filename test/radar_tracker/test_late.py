@@ -18,6 +18,7 @@ from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
 from tracking_core.config import with_values
+from tracking_core.platform import StalePlatform
 from tracking_session.node_config import LateConfig
 from tracking_session.orders import cancel
 from tracking_tools.scenarios import build
@@ -126,6 +127,35 @@ def test_recording_that_begins_anew_still_starts_anew() -> None:
     run(session, [*messages, *messages])
     assert session.guard.jumps == 1
     assert session.counts['plots'].late_used == 0
+
+
+def test_late_scans_of_a_recording_that_began_anew_are_used() -> None:
+    """Those from before say nothing of what is late now."""
+    messages, session = scans(1, 12), radar()
+    first = [*messages[:3], messages[4], messages[3], *messages[5:9]]
+    run(session, [*messages, *first])
+    assert session.guard.jumps == 1
+    assert session.counts['plots'].late_used == 1
+
+
+def test_late_scan_that_cannot_be_used_changes_nothing(monkeypatch) -> None:
+    """Its own ship is not known, say; a copy that can be used still finds its place."""
+    messages, session = scans(1, 12), radar()
+    run(session, [*messages[:9], messages[10]])
+    before = session.tracks
+    with monkeypatch.context() as patch:
+        patch.setattr(session.instrument, 'track', refuse)
+        assert session.plots(messages[9], 0.0) is None
+    assert session.counts['plots'].refused['own ship stale'] == 1
+    assert session.tracks is before
+    assert session.plots(messages[9], 0.0) is None
+    assert session.counts['plots'].late_used == 1
+    same_rows(run(session, messages[11:])[-1], run(radar(), messages)[-1], ids=True)
+
+
+def refuse(*_):
+    """Do what a tracker does that does not know where own ship was."""
+    raise StalePlatform('not known')
 
 
 def test_commands_of_a_user_are_not_undone() -> None:

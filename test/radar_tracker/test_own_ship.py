@@ -153,6 +153,28 @@ def test_plots_of_a_turning_ship_may_be_told_in_any_way(told):
     track_buoys(scans, mount, values[0])
 
 
+def test_true_directions_without_times_stay_true_while_the_ship_swings():
+    """Only the message has a time; the heading, 4 degrees on by the middle of a turn, is out."""
+    values = {
+        **NOISE,
+        **QUIET,
+        'scan.period': PERIOD,
+        'sensor.azimuth_reference': 'tracking_frame',
+    }
+    config, log = with_values(RadarTrackerConfig(), values), logging.getLogger('own ship')
+    radar = radar_session(config, radar_node_config(), TYPES, log)
+    columns = {'range': np.hypot(*BUOYS.T), 'azimuth': np.arctan2(BUOYS[:, 1], BUOYS[:, 0])}
+    for number in range(20):
+        for time in PERIOD * number + np.arange(0.0, PERIOD + 0.05, 0.1):
+            radar.ownship(odometry(1000.0 + time, (0.0, 0.0), circle(time)[1]), 0.0)
+        msg = from_columns(columns, 1000.0 + PERIOD * number, 'radar', TYPES)
+        table = to_columns(radar.plots(msg, 0.0), 100)
+    rows = table['status'] == 1
+    assert rows.sum() == len(BUOYS)
+    apart = np.hypot(*(np.stack([table['x'], table['y']])[:, rows, None] - BUOYS.T[:, None]))
+    assert apart.min(axis=0).max() < 5.0
+
+
 def test_noise_of_north_up_places_is_turned_with_them():
     """Oracle: rotation matrices; a height that is not known stays so, and nothing else is lost."""
     pose, place = poses(np.zeros((3, 3)), 0.0, 0.6), np.array([[3.0, 4.0, np.nan]] * 3)

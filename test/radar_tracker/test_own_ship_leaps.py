@@ -12,6 +12,7 @@ from msg_adapters.table import from_columns, to_columns
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
+from tracking_core.config import with_values
 
 TYPES = rosbags_types()
 PERIOD, SPEED, LEAP = 4.0, 10.0, 1000.0  # s, m/s of own ship, m
@@ -79,3 +80,32 @@ def test_leap_for_good_begins_anew(caplog):
     assert len([r for r in caplog.records if 'own ship is elsewhere' in r.message]) == 1
     assert len(ids[-1]) == 3
     assert not ids[-1] & before
+
+
+def test_plots_from_before_a_leap_bring_no_old_track_back():
+    """They come late, when tracking has begun anew: what was forgotten stays so."""
+    config = replace(radar_node_config(), ownship_timeout=10.0)
+    config = with_values(config, {'scan.late': 5})
+    log = logging.getLogger('late and leaps')
+    radar = radar_session(RadarTrackerConfig(), config, TYPES, log)
+    before = sail(radar, range(10))[0][-1]
+    sail(radar, [10, 11, 12], LEAP)
+    assert not set(radar.tracks.id.tolist()) & before
+    columns = {'range': np.array([15e3]), 'azimuth': np.array([0.3])}
+    assert radar.plots(from_columns(columns, 10.5 * PERIOD, 'radar', TYPES), 60.0) is None
+    assert not set(radar.tracks.id.tolist()) & before
+
+
+def test_leap_is_not_sailed_through():
+    """Plots of just before the first place that is believed were not seen from between the two."""
+    radar = make()
+    sail(radar, range(10))
+    for number in (10, 11, 12):
+        radar.ownship(odometry(PERIOD * number, LEAP), 0.0)
+    for time in (46.0, 48.0):  # s; the last of the old places is of 36, the new one of 48
+        seen = CONTACTS - [SPEED * time + LEAP, 0.0]
+        columns = {'range': np.hypot(*seen.T), 'azimuth': np.arctan2(seen[:, 1], seen[:, 0])}
+        table = to_columns(radar.plots(from_columns(columns, time, 'radar', TYPES), 0.0), 100)
+    started = table['status'] == 0
+    assert started.sum() == 3
+    assert table['speed'][started].max() < 1.0
