@@ -34,20 +34,20 @@ def odometry(time, leap):
     )  # fmt: skip
 
 
-def sail(radar, numbers, leap=0.0):
-    """Feed odometry and plots of contacts at rest; return the confirmed tracks of each scan."""
+def sail(radar, numbers, leap=0.0, ahead=0.0):
+    """Feed odometry, so far ahead, and plots of contacts at rest; return tracks of each scan."""
     tables = []
     for number in numbers:
         time = PERIOD * number
-        radar.ownship(odometry(time, leap), time)
+        radar.ownship(odometry(time + ahead, leap), time)
         seen = CONTACTS - [SPEED * time, 0.0]
         noise = np.random.default_rng(number).normal(0.0, 1.0, (2, 3))
         columns = {
             'range': np.hypot(*seen.T) + 20.0 * noise[0],
             'azimuth': np.arctan2(seen[:, 1], seen[:, 0]) + 1e-4 * noise[1],
         }
-        table = to_columns(radar.plots(from_columns(columns, time, 'radar', TYPES), time), 100)
-        tables.append(table)
+        table = radar.plots(from_columns(columns, time, 'radar', TYPES), time)
+        tables += [] if table is None else [to_columns(table, 100)]
     return [set(t['id'][t['status'] == 1].tolist()) for t in tables], tables[-1]
 
 
@@ -109,3 +109,15 @@ def test_leap_is_not_sailed_through():
     started = table['status'] == 0
     assert started.sum() == 3
     assert table['speed'][started].max() < 1.0
+
+
+def test_recording_that_begins_anew_brings_its_own_path():
+    """The old one, elsewhere at the same times, is forgotten, and no place is called a leap."""
+    radar = make()
+    sail(radar, range(40))
+    ids, table = sail(radar, range(20), LEAP, ahead=0.5 * PERIOD)
+    assert len(ids[-1]) == 3
+    places, confirmed = CONTACTS + np.array([LEAP, 0.0]), table['status'] == 1
+    off = np.hypot(table['x'][:, None] - places[:, 0], table['y'][:, None] - places[:, 1])
+    assert off[confirmed].min(axis=0).max() < 60.0
+    assert set(radar.counts['ownship'].refused) == {'stamp behind time'}
