@@ -103,7 +103,7 @@ class Tracker:
             tracks=concatenate(kept, fitting) if len(fitting) else kept,
             seeds=seeds,
             held=take(scan, seen.waiting) if seen.waiting.any() else None,
-            next_id=state.next_id + len(born),
+            next_id=state.next_id + len(fitting),
             clutter_density=clutter,
             clutter_looks=looks,
             leniency=leniency,

@@ -121,6 +121,23 @@ def test_seam_really_splits_and_doubles_passes() -> None:
     assert min(held + moving) < max(held + moving)
 
 
+def test_contacts_beside_the_cut_do_not_take_turns_at_waiting() -> None:
+    """Missed now and then, a gate is wider in the next look; it waits, or does not, for long."""
+    beside = tuple(
+        at(NORTH + offset, 9_000.0 + 2_000.0 * k, ident=k + 1)
+        for k, offset in enumerate(np.linspace(0.002, 0.05, 13))
+    )
+    scene = Scenario(replace(RADAR, detection_probability=0.8), beside, 200 * PERIOD)
+    tracker, last, waits = RadarTracker(CONFIG), {}, []
+    for plots, _ in messages(scene, np.random.default_rng(7)):
+        tracks = tracker.track(plots)
+        now = dict(zip(tracks.id.tolist(), tracks.time.tolist(), strict=True))
+        waits += [name for name, time in now.items() if time == last.get(name)]
+        last = now
+    assert len(tracks) == len(beside)
+    assert max(waits.count(name) for name in now) <= 5  # 25 and more without a margin
+
+
 @both_ways
 @pytest.mark.parametrize('sectors', [3, 12])
 def test_sectors_give_the_tracks_of_full_turns(rotation: str, sectors: int) -> None:

@@ -221,13 +221,20 @@ def test_height_is_tracked_in_its_own_plane() -> None:
 
 
 def test_max_tracks_refuses_and_reports() -> None:
-    """No more tracks than allowed; the rest is counted."""
-    plots, refused = scene(6, 10), 0
+    """No more tracks than allowed; the rest is counted, and uses up no ids."""
+    refused, started, seen = 0, 0, set()
     tracker = RadarTracker(with_values(CONFIG, {'max_tracks': 4}))
-    for message in plots:
-        assert len(tracker.track(message)) <= 4
+    for number, message in enumerate(scene(6, 10)):
+        if number == 5:  # make room for one
+            tracker.drop_track(int(tracker.tracks.id[0]))
+        tracks = tracker.track(message)
+        assert len(tracks) <= 4
         refused += tracker.state.report.refused
+        started += tracker.state.report.started
+        seen |= set(tracks.id.tolist())
     assert refused >= 2
+    assert seen == set(range(1, started + 1))
+    assert started > 4
 
 
 def test_duplicates_are_merged() -> None:
