@@ -14,6 +14,8 @@ from rclpy.time import Time
 
 from msg_adapters.message_types import NANOSECONDS
 
+NO_CLOCK = 'use_sim_time is true, but nothing has come on /clock'
+
 
 def steady_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:
     """Return a timer that runs whether or not /clock does; `period` in s."""
@@ -26,6 +28,12 @@ def on_clock_going_back(node: Any, callback: Callable[[], None]) -> Any:
         JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1)),
         post_callback=lambda jump: callback() if jump.delta.nanoseconds < 0 else None,
     )
+
+
+def has_no_clock(node: Any) -> bool:
+    """Return whether simulated time is wanted and has not begun."""
+    clock = node.get_clock()
+    return bool(clock.ros_time_is_active and clock.now().nanoseconds == 0)
 
 
 def to_time(time: float) -> Time:

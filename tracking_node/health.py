@@ -15,6 +15,8 @@ from tracking_session.session import Session
 
 NEAR_CAPACITY = 0.9  # of max_tracks
 QUIET = 5.0  # s without plots that are worth a warning
+PAUSES = 2.0  # between plots, the same of an antenna that turns slowly
+LONGEST = 30.0  # s between plots; a longer pause is none of the antenna
 
 
 @dataclass
@@ -26,9 +28,15 @@ class Health:
     step_cpu: float = 0.0  # the same of the processor [s]
     latency: float = math.nan  # from arrival to tracks [s]
     plots_at: float = -math.inf  # when the last plots came, by the same clock [s]
+    pause: float = 0.0  # between the last two plots [s]
     ownship_at: float = -math.inf
     _told: Counter[str] = field(default_factory=Counter)  # complaints up to the last report
     _begun: tuple[float, float] = (0.0, 0.0)
+
+    def plots_come(self, now: float) -> None:
+        """Take note that plots came now, and how long after the last ones."""
+        known = math.isfinite(self.plots_at)
+        self.pause, self.plots_at = min(now - self.plots_at, LONGEST) if known else 0.0, now
 
     def step_begins(self) -> None:
         """Start both clocks of a step."""
@@ -47,7 +55,7 @@ class Health:
     def _silences(self, session: Session, now: float) -> Iterator[str]:
         """Yield which inputs have stopped coming."""
         silent = now - max(self.plots_at, self.started)
-        if silent > QUIET:
+        if silent > max(QUIET, PAUSES * self.pause):
             yield f'no {session.instrument.topic} for {silent:.0f} s'
         if session.whereabouts.transforms is not None:
             return  # tf2 tells

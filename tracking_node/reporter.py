@@ -48,7 +48,8 @@ class Reporter:
 
     def plots_come(self) -> None:
         """Take note that plots have just come."""
-        self.health.plots_at, self._silence_is_told = time.monotonic(), True
+        self.health.plots_come(time.monotonic())
+        self._silence_is_told = True
 
     def tick(self, subscription: Any, is_active: bool) -> None:
         """Report once a second; say once why nothing comes on the subscription of the plots."""

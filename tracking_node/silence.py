@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from tracking_node.clocks import has_no_clock, NO_CLOCK
+
 
 def explain_silence(node: Any, subscription: Any) -> str:
     """Return what a user must know who waits for output while nothing comes in."""
@@ -16,10 +18,7 @@ def explain_silence(node: Any, subscription: Any) -> str:
     ]
     there = f'publishers there: {"; ".join(others)}' if others else 'nobody publishes there'
     text = f'nothing has come on {topic} ({wanted}, {_words(subscription.qos_profile)}); {there}'
-    clock = node.get_clock()
-    if clock.ros_time_is_active and clock.now().nanoseconds == 0:
-        text += '; use_sim_time is true, but nothing has come on /clock either'
-    return text
+    return f'{text}; {NO_CLOCK} either' if has_no_clock(node) else text
 
 
 def _type_name(message: Any) -> str:

@@ -5,7 +5,8 @@ Which stamps can be right.
 
 One bad stamp must never hurt a track, and a clock that moved must not stop the node. A stamp out
 of all proportion is refused; only when several in a row agree with each other has the clock truly
-moved, and tracking starts anew.
+moved, and tracking starts anew. A recording shorter than that proportion is known by its beginning
+when it is played again.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ class StampGuard:
     threshold: float
     jumps: int = 0  # times that the clock truly moved
     silences: int = 0  # times that nothing came for longer than a stamp may be off
+    _oldest: float | None = None  # stamp accepted first, None if that is not known
     _newest: float | None = None  # stamp accepted last
     _received: float = 0.0  # when, by a clock that never goes back
     _interval: float = 0.0  # between the last two accepted stamps
@@ -52,7 +54,8 @@ class StampGuard:
 
     def reset(self) -> None:
         """Forget all stamps; the next one is believed."""
-        self._newest, self._interval, self._strangers, self._moved = None, 0.0, [], False
+        self._oldest, self._newest, self._interval = None, None, 0.0
+        self._strangers, self._moved = [], False
 
     def remember(self) -> dict[str, float | None]:
         """Return the newest stamp and the usual interval, for a restart."""
@@ -94,12 +97,14 @@ class StampGuard:
             self.silences += step > self._reach
             self._take(stamp, received)
             return False
-        if -self.threshold <= step <= 0.0:
+        is_near = -self.threshold <= step <= 0.0
+        is_first_again = step < 0.0 and self._oldest is not None and stamp <= self._oldest
+        if is_near and not is_first_again:
             raise BadMessage(
                 'stamp not newer',
                 f'header.stamp {stamp:.3f} is not after the last one, {self._newest:.3f}',
             )
-        if self._believe(stamp):
+        if is_near or self._believe(stamp):
             self.jumps += 1
             interval = stamp - self._strangers[-2] if len(self._strangers) > 1 else 0.0
             self.reset()
@@ -114,6 +119,8 @@ class StampGuard:
         )
 
     def _take(self, stamp: float, received: float) -> None:
+        if self._newest is None:
+            self._oldest = stamp
         if self._newest is not None and stamp - self._newest <= self._reach:
             self._interval = stamp - self._newest  # a gap that silence explains is none
         self._newest, self._received = stamp, received

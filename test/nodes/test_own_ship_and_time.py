@@ -54,8 +54,8 @@ def sail(start_node, probe):
             ownship.publish(odometry(probe.stamp, since))
         probe.send(beside(probe.stamp, since), probe.stamp)
 
-    def scan():
-        send()
+    def scan(step=2.0):
+        send(step)
         probe.spin_until(lambda: probe.is_answered(probe.stamp), 'tracks')
         return to_columns(probe.tables[-1], 100)
 
@@ -105,6 +105,24 @@ def test_recording_with_own_ship_that_begins_anew_resets_once(sail, probe):
     probe.spin_until(lambda: probe.diagnosed('clock jumps') == '1', 'clock jumps')
 
 
+def test_recording_of_a_few_seconds_has_tracks_in_every_round(sail, probe):
+    """Shorter than what a stamp may be off: own ship and plots begin anew each time, at once."""
+    node, _, scan = sail
+    probe.reset()
+    begin, ids = probe.stamp, set()
+    for _ in range(3):
+        probe.stamp = begin
+        scan(0.0)
+        for _ in range(9):
+            table = scan(1.0)
+        (row,) = np.flatnonzero(table['status'] == 1)
+        assert np.hypot(table['x'][row] - 5000.0, table['y'][row] - 1000.0) < 100.0
+        ids |= confirmed_ids(table)
+    assert len(ids) == 3
+    assert node.log.count('began anew?') == 2
+    assert 'refused: header.stamp' not in node.log
+
+
 def test_tracking_frame_and_mount_place_a_sensor_that_stands(start_node, probe):
     """The tracks are in the frame asked for; a third one is refused with both names."""
     node = start_node(
@@ -140,6 +158,17 @@ def test_clock_that_goes_back_begins_anew_at_once(start_node, probe):
     after = probe.scan(probe.stamp - 500.0)
     assert set(after['id'][after['status'] == 2]) >= set(before['id'][before['status'] == 1])
     assert node.log.count('starts anew') == 1
+
+
+def test_simulated_time_that_does_not_begin_is_told_for_what_it_is(start_node, probe):
+    """Stamps are not called wrong because there is no clock, and there are tracks meanwhile."""
+    node = start_node('use_sim_time:=true')
+    probe.meet()
+    missed = 'use_sim_time is true, but nothing has come on /clock; tracking goes by the stamps'
+    probe.peer.ask(lambda _: probe.scan(), lambda: missed in node.log, 'a word on /clock')
+    assert len(confirmed_ids(probe.scan())) == 3
+    assert 'the clock: use_sim_time?' not in node.log
+    assert node.log.count(missed) == 1
 
 
 def test_stamps_far_from_the_clock_are_told_once_and_tracked(start_node, probe):

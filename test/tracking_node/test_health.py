@@ -30,6 +30,17 @@ def test_level_says_for_how_long_no_plots_have_come(session):
     assert health.level(session, 123.2) == ('WARN', 'no plots for 12 s')
 
 
+def test_slow_antenna_is_not_called_silent_between_its_turns(session):
+    """Twelve seconds are its turn; two turns without plots are worth a word."""
+    health = Health(started=0.0)
+    for now in (3.0, 15.0, 27.0):
+        health.plots_come(now)
+    assert health.level(session, 39.0) == ('OK', 'tracking')
+    assert health.level(session, 52.0) == ('WARN', 'no plots for 25 s')
+    health.plots_come(1000.0)  # a silence is no turn
+    assert health.level(session, 1061.0) == ('WARN', 'no plots for 61 s')
+
+
 def test_level_says_for_how_long_own_ship_is_silent_where_it_is_needed(session):
     """A sensor that stands still has none; one that moves cannot do without."""
     health = Health(started=0.0, plots_at=99.0, ownship_at=85.0)

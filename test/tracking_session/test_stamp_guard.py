@@ -95,6 +95,28 @@ def test_clock_that_says_so_is_believed_at_once():
     assert feed(guard, [10.0, 14.0]) == ['reset', 'used']
 
 
+@pytest.mark.parametrize('first', [0.0, -0.5, -1.0])
+def test_recording_shorter_than_the_threshold_may_be_played_again(first):
+    """No stamp is as old as its first one: it begins anew at once, in every round."""
+    guard = StampGuard(10.0)
+    later = [float(stamp) for stamp in range(1, 9)]
+    for played_before in (False, True, True):
+        begin = ['reset' if played_before else 'used']
+        assert feed(guard, [100.0 + first, *np.add(100.0, later)]) == begin + ['used'] * 8
+    assert guard.jumps == 2
+
+
+def test_stamp_before_the_newest_but_not_the_first_is_none_to_begin_anew_with():
+    """Nor is the very first stamp that is sent twice, or one that a restart has remembered."""
+    guard = StampGuard(10.0)
+    assert feed(guard, [100.0, 100.0, 104.0, 101.0])[1:] == [
+        'stamp not newer', 'used', 'stamp not newer',
+    ]  # fmt: skip
+    memory = guard.remember()
+    guard.recall(memory, 0.0)
+    assert feed(guard, [99.0, 105.0]) == ['stamp not newer', 'used']
+
+
 def test_refusal_says_both_times():
     """The text has the stamp, the last one and the parameter."""
     guard = StampGuard(10.0)
