@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from tracking_core.batches import Floats, Ints
 
 
@@ -20,3 +22,13 @@ class Bodies:
 
     def __len__(self) -> int:
         return len(self.id)
+
+    def at(self, time: float) -> Bodies:
+        """Return the contacts as they are at one time [s], if each goes on evenly."""
+        dt = (time - self.time)[:, None]
+        state, covariance = self.state.copy(), self.covariance.copy()
+        state[:, :3] += dt * state[:, 3:]
+        dt = dt[:, :, None]
+        covariance[:, :3] += dt * self.covariance[:, 3:]
+        covariance[:, :, :3] += dt * covariance[:, :, 3:]
+        return Bodies(self.id, np.full(len(self), time), state, covariance)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from msg_adapters.bodies import Bodies
-from msg_adapters.message_types import MessageTypes
+from msg_adapters.message_types import MessageTypes, seconds
 from tracking_core.batches import Floats, Ints
 
 NAME = 'radar_msgs/RadarTracks'
@@ -62,7 +62,7 @@ def to_radar_tracks(
     bodies: Bodies, run: bytes, header: Any, types: MessageTypes, classes: RadarClasses
 ) -> Any:
     """
-    Return the contacts as one message.
+    Return the contacts as one message: all as they are at its one stamp.
 
     Parameters
     ----------
@@ -78,6 +78,7 @@ def to_radar_tracks(
         Of the rest.
 
     """
+    bodies = bodies.at(seconds(header.stamp))
     with np.errstate(over='ignore'):  # beyond float32 is infinite
         place, speed = (_upper(bodies.covariance[:, at, at]) for at in (slice(0, 3), slice(3, 6)))
     kinds = classify(bodies.state[:, 3:5], bodies.covariance[:, 3:5, 3:5]).tolist()

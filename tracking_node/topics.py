@@ -14,13 +14,12 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
-from visualization_msgs.msg import MarkerArray
 
 from msg_adapters.kinds.menu import message_class
 from msg_adapters.message_types import rclpy_types
 from tracking_node.body_topics import BodyTopics
 from tracking_node.clock_check import ClockCheck
-from tracking_node.display import Display
+from tracking_node.display import MarkerTopic
 from tracking_node.inputs import age, arrival_time, Inputs
 from tracking_node.openings import Openings
 from tracking_node.reporter import Reporter
@@ -55,8 +54,7 @@ class LiveTopics:
         self._session = make_session(*configs, self._types, node.get_logger())
         self._topic = self._session.instrument.topic
         self._keeper = Keeper(self._session, configs)
-        self._display, self._is_active = Display(self._types), False
-        self._clock_check = ClockCheck(node, self._topic)
+        self._clock_check, self._is_active = ClockCheck(node, self._topic), False
         self._openings = Openings(node)
         try:
             self._open(self._openings, message_class(configs[1].input_type))
@@ -75,7 +73,7 @@ class LiveTopics:
         self._inputs = Inputs(subscriptions, self._session.ledger)
         self._tracks = tell(PointCloud2, '~/tracks')
         self._bodies = BodyTopics(openings, self._node_config.output_type, self._types)
-        self._markers = tell(MarkerArray, '~/markers')
+        self._markers = MarkerTopic(openings, self._types)
         self._reporter = Reporter(self._node, self._session, self._types, openings)
         openings.serve(Trigger, '~/reset', self._on_reset)
         openings.every(1.0, self._tick)
@@ -105,8 +103,7 @@ class LiveTopics:
         """Stop listening and clear the screens; tracks are kept."""
         self._is_active = False
         self._waiting.clear()
-        if self._session.stamp is not None:
-            self._markers.publish(self._display.erase(self._session.header()))
+        self._markers.clear(self._session)
 
     def reconfigure(self, configs: Configs) -> None:
         """Go on with other live parameters."""
@@ -139,15 +136,8 @@ class LiveTopics:
     def _show(self) -> None:
         """Publish what is for eyes and other tools, while somebody subscribes."""
         self._session.instrument.follow()
-        self._display.is_behind = True
         self._bodies.publish(self._session.instrument, self._session.header())
-        self._draw()
-
-    def _draw(self) -> None:
-        """Publish markers if somebody looks and they are due."""
-        now, markers = time.monotonic(), self._node_config.markers
-        if self._markers.get_subscription_count() and self._display.is_due(now, markers.rate):
-            self._markers.publish(self._display.draw(self._session, now, markers))
+        self._markers.follow(self._session, self._node_config.markers)
 
     def _on_ownship(self, msg: Any, info: Any) -> None:
         if not self._is_active:
@@ -162,6 +152,8 @@ class LiveTopics:
         return lambda msg: give(self._session, msg) if self._is_active else None
 
     def _on_reset(self, _: Any, response: Any) -> Any:
+        self._waiting.clear()
+        self._markers.clear(self._session)
         self._session.reset()
         self._keeper.save()
         response.success, response.message = True, 'all tracks are forgotten'
@@ -170,6 +162,5 @@ class LiveTopics:
 
     def _tick(self) -> None:
         """Once a second: draw what was not due before, and report."""
-        if self._session.stamp is not None:
-            self._draw()
+        self._markers.draw(self._session, self._node_config.markers)
         self._reporter.tick(self._inputs.subscriptions[self._topic], self._is_active)

@@ -18,7 +18,8 @@ def laser_scan(msg: Any) -> Columns:
     A ray without an echo (beyond the limits of the message, or no number; REP-117) is no row.
     """
     ranges = np.asarray(msg.ranges, np.float64)
-    (ray,) = np.nonzero((ranges >= msg.range_min) & (ranges <= msg.range_max))
+    is_echo = np.isfinite(ranges) & (ranges >= msg.range_min) & (ranges <= msg.range_max)
+    (ray,) = np.nonzero(is_echo)
     return {
         'range': ranges[ray],
         'azimuth': msg.angle_min + ray * msg.angle_increment,

@@ -127,6 +127,19 @@ def test_laser_scan_of_rosbags(ros):
     )  # fmt: skip
 
 
+def test_laser_scan_without_a_limit_has_no_echo_at_infinity(ros):
+    """A ray without an echo is +inf, also where range_max is; a scan of such saw nothing."""
+    none = np.zeros(0, np.float32)
+    limits = {**laser_values(), 'range_max': np.inf}
+    for ranges in ([np.inf, 10.0, np.nan], [np.inf, np.inf, np.inf]):
+        rays = np.array(ranges, np.float32)
+        reading = to_plots(
+            ros('sensor_msgs/LaserScan', header=header(ros), ranges=rays, intensities=none,
+                **limits), RADAR, 9)  # fmt: skip
+        assert reading.plots.range.tolist() == [10.0] * ranges.count(10.0)
+        assert reading.dropped == {}
+
+
 def test_laser_scan_and_poses_of_rclpy():
     """The same with the classes that a node receives."""
     sensor_msgs = pytest.importorskip('sensor_msgs.msg')

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Contacts as radar_msgs/RadarTracks, with classes built from definitions of the same fields."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -63,7 +65,8 @@ def send(store):
 
 def test_tracks_arrive_with_state_covariance_and_name(send, make_tracks):
     """Upper triangles in the order of the axes; a name of this run and the id."""
-    bodies = to_bodies(make_tracks([3, 70_000]), 'mmse')
+    tracks = replace(make_tracks([3, 70_000]), time=np.full(2, 100.0))
+    bodies = to_bodies(tracks, 'mmse')
     first, second = send(bodies).tracks
     assert bytes(first.uuid.uuid) == RUN + (3).to_bytes(8, 'big')
     assert bytes(second.uuid.uuid) == RUN + (70_000).to_bytes(8, 'big')
@@ -73,6 +76,23 @@ def test_tracks_arrive_with_state_covariance_and_name(send, make_tracks):
     cov = bodies.covariance[0]
     np.testing.assert_allclose(first.position_covariance, cov[rows, columns], rtol=1e-6)
     np.testing.assert_allclose(first.velocity_covariance, cov[3 + rows, 3 + columns], rtol=1e-6)
+
+
+def test_tracks_of_many_times_are_told_as_of_the_one_stamp(send, make_tracks):
+    """A rotating antenna saw one four seconds ago, one just now; heights may be unknown."""
+    tracks = make_tracks([1, 2], dimensions=2)
+    bodies = to_bodies(replace(tracks, time=np.array([96.0, 100.0])), 'mmse')
+    moved, still = send(bodies).tracks
+    x, y, _, vx, vy, _ = bodies.state[0]
+    np.testing.assert_allclose([moved.position.x, moved.position.y], [x + 4 * vx, y + 4 * vy])
+    assert [still.position.x, still.position.y] == bodies.state[1, :2].tolist()
+    F = np.eye(6) + np.diag([4.0] * 3, 3)
+    known = np.ix_([0, 1, 3, 4], [0, 1, 3, 4])
+    expected = F[known] @ bodies.covariance[0][known] @ F[known].T
+    xx, xy, _, yy, _, zz = moved.position_covariance
+    np.testing.assert_allclose([xx, xy, yy], expected[[0, 0, 1], [0, 1, 1]], rtol=1e-6)
+    assert np.isnan(zz)
+    np.testing.assert_allclose(moved.velocity_covariance[0], expected[2, 2], rtol=1e-6)
 
 
 def test_what_is_not_known_is_nan(send, make_tracks):

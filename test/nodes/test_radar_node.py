@@ -9,6 +9,8 @@ from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
+from tracking_tools.screen import Screen
+
 COLUMNS = {
     'x', 'y', 'z', 'vx', 'vy', 'vz', 'id', 'status', 'coasted', 'time', 'age', 'hits', 'misses',
     'existence_probability', 'manoeuvre_probability', 'p_0', 'p_1', 'gate_threshold',
@@ -44,6 +46,20 @@ def test_views_come_while_somebody_subscribes(start_node, probe):
     probe.spin_until(lambda: len(odometry) >= 3)
     names = {f'track_{track_id}' for track_id in table['id'][table['status'] == 1]}
     assert {msg.child_frame_id for msg in odometry[-3:]} == names
+
+
+def test_screen_shows_no_tracks_of_another_run_and_none_after_a_reset(start_node, probe):
+    """A viewer outlives a node that was killed; nobody waits for plots to see a reset."""
+    screen, markers = Screen(), []
+    screen.markers['gate', 77] = None  # drawn by the node that was killed
+    start_node('markers.rate:=100.0')
+    end = probe.hear(MarkerArray, 'radar_tracker/markers', markers)
+    probe.meet()
+    probe.peer.wait_until_matched(end)
+    ids = set(probe.confirmed()['id'].tolist())
+    probe.spin_until(lambda: screen.take_all(markers) and screen.ids() == ids, 'the tracks alone')
+    probe.reset()
+    probe.spin_until(lambda: screen.take_all(markers) and not screen.ids(), 'a clear screen')
 
 
 def test_reset_forgets_all_tracks_and_says_so(start_node, probe):
