@@ -63,3 +63,16 @@ def test_udp_feed_becomes_tracks(feed, start_node, probe):
     track, flown = to_columns(msg, 9), seconds(msg.header.stamp) % DAY - start
     assert abs(track['x'][0] - (18520.0 + 18.52 * flown)) < 100.0  # plots have 1/256 NM
     assert abs(track['y'][0]) < 100.0
+
+
+@pytest.mark.slow
+def test_feed_that_publishes_nothing_says_what_comes(feed, probe):
+    """Tracks of another category: who waits for plots reads of them, and need not end the feed."""
+    process, port = feed
+    probe.peer.wait_for_node('/asterix_feed', deadline=60.0)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as radar:
+        said = 'nothing to publish yet; no reports: category 62'
+        probe.peer.ask(
+            lambda _: radar.sendto(bytes([62, 0, 5, 1, 2]), ('127.0.0.1', port)),
+            lambda: said in process.log, 'a word on what comes', again=0.1, deadline=30.0,
+        )  # fmt: skip

@@ -16,7 +16,7 @@ import pytest
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.table import to_columns
 from tracking_tools.asterix.__main__ import main
-from tracking_tools.asterix.blocks import MOST, read_reports
+from tracking_tools.asterix.blocks import blocks_of_file, MOST, read_reports
 from tracking_tools.bags import open_bag
 from tracking_tools.feeds.clock import DAY, DayClock
 from tracking_tools.feeds.feed import Feed
@@ -88,6 +88,22 @@ def test_damage_costs_what_is_behind_it_only():
     assert counts == {'truncated or of wrong length': len(good) - 1}
 
 
+@pytest.mark.parametrize('place', [1, 2])
+def test_damaged_length_costs_its_block_only(place, tmp_path):
+    """In a recording of a day, a bit that flipped is not the end."""
+    blocks = [block(plot(float(second))) for second in range(20)]
+    damaged = bytearray(blocks[7])
+    damaged[place] ^= 0xFF if place == 1 else 0x04
+    blocks[7] = bytes(damaged)
+    path, counts = tmp_path / 'night.ast', Counter()
+    path.write_bytes(b''.join([b'a header of the recorder', *blocks]))
+    told = [
+        r.time_of_day for data in blocks_of_file(path, counts) for r in read_reports(data, counts)
+    ]
+    assert set(told) >= {*range(7), *range(8, 20)}
+    assert counts['truncated or of wrong length'] >= 2
+
+
 def test_block_of_empty_records_is_bounded():
     """65 kB of zeros are records without items; they end at the limit."""
     counts = Counter()
@@ -114,6 +130,20 @@ def test_clock_goes_on_over_midnight_and_takes_late_reports():
     clock = DayClock(5.0 * DAY - 10.0)
     times = [clock.time(tod) for tod in (DAY - 2.0, 2.0, DAY - 1.0, 3.0)]
     np.testing.assert_allclose(np.array(times) - 5.0 * DAY, [-2.0, 2.0, -1.0, 3.0])
+
+
+def test_wrong_times_do_not_move_the_day():
+    """Two damaged reports of ours; and two other radars whose clocks were never set."""
+    feed, others = Feed(read_reports, rosbags_types(), 'radar', 10.0 * DAY + 1e4), []
+    for radar in (1, 2):
+        others.append({'010': (('SAC', 9), ('SIC', radar))})
+    for step in range(60):
+        now = 1e4 + 4.0 * step
+        told = feed.take(block(plot(now)))
+        assert told[0] == 10.0 * DAY + now
+        feed.take(block(*(plot((now + 29e3 * (n + 1)) % DAY, **o) for n, o in enumerate(others))))
+        if step % 20 == 10:
+            feed.take(block(plot((now + 2e3 * step) % DAY)))
 
 
 def test_feed_follows_one_radar_and_marks_are_looks_without_plots():

@@ -174,6 +174,15 @@ def test_what_waits_is_told_once_its_interval_is_over():
     assert feed.counts == {'plots': 15}
 
 
+def test_clock_of_a_sender_that_stands_still_ends_messages_all_the_same():
+    """A radar without a fix sends one time for ever: what waits is bounded, live."""
+    feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
+    told = [feed.take(ttm(1, utc='120000.00'), 100.0 + 0.1 * step) for step in range(200)]
+    widths = [msg.width for _, msg in filter(None, told)]
+    assert max(widths) <= 21
+    assert sum(widths) >= 200 - 21
+
+
 @pytest.mark.parametrize('wrong', ['130003.00', '115500.00'])
 def test_time_that_goes_back_ends_a_message_and_is_counted(wrong):
     """One sentence is an hour ahead, or five minutes behind: the others lose nothing."""

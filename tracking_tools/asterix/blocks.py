@@ -15,6 +15,7 @@ from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+import re
 from typing import Any
 
 import numpy as np
@@ -25,20 +26,42 @@ from tracking_tools.feeds.report import NAUTICAL_MILE, Report
 HEADER = 3  # bytes: category, length of the block with its header
 MOST = 2000  # records of a block; a block that has more is read so far
 PLOTS, SERVICE = 48, 34  # categories
+_START = re.compile(bytes([ord('['), PLOTS, SERVICE, ord(']')]))  # of a block of ours
 NO_DETECTION = 0  # in I048/020
 _MARKS = (1, 2)  # in I034/000: north, sector crossing
 
 
 def data_blocks(data: bytes, counts: Counter[str]) -> Iterator[tuple[int, bytes]]:
-    """Yield category and records of each block; the rest of a damaged chain is not read."""
+    """Yield category and records of each block; what is damaged is passed over."""
     at = 0
     while at < len(data):
-        length = int.from_bytes(data[at + 1 : at + HEADER], 'big')
-        if length <= HEADER or at + length > len(data):
+        end = _end(data, at)
+        if end and (data[at] in (PLOTS, SERVICE) or _goes_on(data, end)):
+            yield data[at], data[at + HEADER : end]
+        else:
             counts['truncated or of wrong length'] += 1
-            return
-        yield data[at], data[at + HEADER : at + length]
-        at += length
+            end = _next(data, at + 1)
+        at = end
+
+
+def _end(data: bytes, at: int) -> int:
+    """Return where the block that begins here ends, 0 if it cannot be one."""
+    length = int.from_bytes(data[at + 1 : at + HEADER], 'big')
+    return at + length if HEADER < length <= len(data) - at else 0
+
+
+def _next(data: bytes, at: int) -> int:
+    """Return where the next of our blocks begins that another one, or the end, comes after."""
+    for start in _START.finditer(data, at):
+        end = _end(data, start.start())
+        if end and _goes_on(data, end):
+            return start.start()
+    return len(data)
+
+
+def _goes_on(data: bytes, at: int) -> bool:
+    """Return whether the data end here, or another block can begin."""
+    return at == len(data) or _end(data, at) > 0
 
 
 def blocks_of_file(path: Path, counts: Counter[str]) -> Iterator[bytes]:

@@ -19,15 +19,14 @@ class DayClock:
     """
 
     def __init__(self, reference: float) -> None:
-        self._newest = reference
+        self._near = reference
 
     def set(self, now: float) -> None:
         """Take a clock's word for what time it is about [s since the epoch]."""
-        self._newest = now
+        self._near = now
 
     def time(self, time_of_day: float) -> float:
         """Return the time [s since the epoch] of a time of day [s, UTC]."""
-        apart = (time_of_day - self._newest + 0.5 * DAY) % DAY - 0.5 * DAY
-        time = self._newest + apart
-        self._newest = max(self._newest, time)
-        return time
+        apart = (time_of_day - self._near + 0.5 * DAY) % DAY - 0.5 * DAY
+        self._near += apart
+        return self._near

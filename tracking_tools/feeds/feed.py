@@ -67,15 +67,17 @@ class Feed:
 
         Reports without a time of their own have that one, and are left out without it.
         """
-        timed = [(self._time(report, now), report) for report in self._read(data, self.counts)]
-        ours = [(time, report) for time, report in timed if self._is_ours(time, report)]
+        sent = filter(self._is_ours, self._read(data, self.counts))
+        timed = [(self._time(report, now), report) for report in sent]
+        ours = [(time, report) for time, report in timed if self._has(time)]
         if not self._interval:
             self._waiting += ours
             return self.flush()
         since = [time - self._waiting[0][0] for time, _ in ours] if self._waiting else [0.0]
         if min(since, default=0.0) <= -self._interval:
             self.counts['time went back'] += 1
-        told = self.flush() if max(np.abs(since), default=0.0) >= self._interval else None
+        is_over = max(np.abs(since), default=0.0) >= self._interval
+        told = self.flush() if is_over else self.overdue(now)  # a sender's clock may stand still
         self._since = self._since if self._waiting else now
         self._waiting += ours
         return told
@@ -112,13 +114,16 @@ class Feed:
             return now - (now - report.second + 0.5 * MINUTE) % MINUTE + 0.5 * MINUTE
         return now
 
-    def _is_ours(self, time: float, report: Report) -> bool:
+    def _is_ours(self, report: Report) -> bool:
         self.source = report.source if self.source is None else self.source
         if report.source != self.source:
             self.counts['from another source'] += 1
-        elif not np.isfinite(time):
+        return report.source == self.source
+
+    def _has(self, time: float) -> bool:
+        if not np.isfinite(time):
             self.counts['without a time'] += 1
-        return report.source == self.source and bool(np.isfinite(time))
+        return bool(np.isfinite(time))
 
     def _columns(self, plots: Sequence[tuple[float, Report]], stamp: float) -> dict[str, Any]:
         def column(name: str) -> Any:

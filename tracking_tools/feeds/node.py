@@ -45,7 +45,7 @@ class FeedNode(Node):
 
     def __init__(self, name: str, feed: Feed) -> None:
         super().__init__(f'{name}_feed')
-        self.feed, self._told = feed, time.monotonic()
+        self.feed, self._told, self._said = feed, time.monotonic(), ''
         self._plots = self.create_publisher(
             PointCloud2, 'plots', QoSProfile(depth=10),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
@@ -56,11 +56,21 @@ class FeedNode(Node):
         return bool(self._plots.get_subscription_count())
 
     def tell(self, msg: Any) -> None:
-        """Publish plots; say now and then what was left out."""
+        """Publish plots."""
         self._plots.publish(msg)
-        if time.monotonic() - self._told > REPORT:
-            self._told = time.monotonic()
-            self.get_logger().info(describe(self.feed))
+
+    def report(self) -> None:
+        """Say now and then what became of the reports, if that is news."""
+        now = time.monotonic()
+        if now - self._told <= REPORT:
+            return
+        self._told, before, self._said = now, self._said, describe(self.feed)
+        if self._said == before:
+            return
+        if self.feed.told:
+            self.get_logger().info(self._said)
+        else:
+            self.get_logger().warning(f'nothing to publish yet; {self._said}')
 
     def take_leave(self) -> None:
         """Say what became of all reports, once reliable readers have the last plots."""
@@ -123,6 +133,7 @@ def _hear(node: FeedNode, hearing: socket.socket, is_over: Callable[[], bool]) -
             told = node.feed.take(data, now)
         if told is not None:
             node.tell(told[1])
+        node.report()
 
 
 def _play(node: FeedNode, chunks: Iterable[bytes], rate: float, stop: Event) -> None:
@@ -134,3 +145,4 @@ def _play(node: FeedNode, chunks: Iterable[bytes], rate: float, stop: Event) -> 
         if stop.wait(max(begun + (stamp - first) / rate - time.monotonic(), 0.0)):
             return
         node.tell(msg)
+        node.report()
