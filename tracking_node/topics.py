@@ -79,7 +79,8 @@ class LiveTopics:
         openings.every(1.0, self._tick)
         self._keeper.open(openings.every, arrival_time(self._node))
         self._follow_transforms(openings)
-        openings.when_clock_goes_back(self._session.guard.clock_moved)
+        for known in (self._session.guard, self._session.whereabouts):
+            openings.when_clock_goes_back(known.clock_moved)
 
     def _follow_transforms(self, openings: Openings) -> None:
         config, ledger = self._node_config, self._session.ledger

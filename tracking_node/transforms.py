@@ -46,7 +46,7 @@ class TfTransforms:
             ) from error
         # Its own watch for a clock that goes back is left out: stamps count here, not the clock.
         self._buffer = self._tf2.Buffer(cache_time=to_duration(KEPT))
-        self._newest = -np.inf  # moment that was asked for [s]
+        self._newest = -np.inf  # moment that was told of [s]
         self._listener = self._tf2.TransformListener(self._buffer, node)
 
     def close(self) -> None:
@@ -59,12 +59,12 @@ class TfTransforms:
         if last < self._newest - KEPT:  # a bag that begins anew: tf2 would not hear of old times
             self._buffer.clear()
             self._newest = last
-        self._newest = max(self._newest, last)
         wanted = np.unique(np.linspace(first, last, LOOKS))
         try:
             rows = [self._look(into, frame, time) for time in wanted]
         except self._tf2.TransformException as error:
             raise NotYet(f"no transform from '{frame}' to '{into}': {error}") from error
+        self._newest = max(self._newest, last)
         try:
             wanted = np.insert(wanted, 0, first - LEAD)
             rows.insert(0, self._look(into, frame, float(wanted[0])))

@@ -58,6 +58,10 @@ class Whereabouts:
         self._leaps.reset()
         self.platform = Platform.empty(self._config.ownship_timeout)
 
+    def clock_moved(self) -> None:
+        """Take note that the ROS clock went back: the next odometry that did so is believed."""
+        self._guard.clock_moved()
+
     def take(self, sample: Platform, received: float) -> bool:
         """Add one odometry; return whether own ship leapt. BadMessage if it cannot be true."""
         has_jumped = self._guard.accept(float(sample.time[0]), received)

@@ -171,6 +171,29 @@ def test_simulated_time_that_does_not_begin_is_told_for_what_it_is(start_node, p
     assert node.log.count(missed) == 1
 
 
+def test_clock_that_goes_back_takes_own_ship_along(start_node, probe):
+    """No plot of the second round is refused for want of own ship."""
+    node = start_node(
+        'use_sim_time:=true', 'qos_overrides./ownship.subscription.reliability:=reliable',
+        'sensor.azimuth_sd:=0.001',
+    )  # fmt: skip
+    clock, ownship = probe.tell(Clock, '/clock'), probe.tell(Odometry, 'ownship')
+    probe.meet()
+    probe.peer.wait_until_matched(clock, ownship)
+    probe.reset()
+    begin = probe.stamp
+    for _ in range(2):
+        for step in range(12):
+            probe.stamp = begin + 2.0 * step
+            if step in (0, 11):
+                clock.publish(Clock(clock=rclpy_types().header(probe.stamp, '').stamp))
+                probe.until_diagnosed_at(probe.stamp)
+            ownship.publish(odometry(probe.stamp, begin))
+            table = probe.answer(beside(probe.stamp, begin))
+    assert len(confirmed_ids(table)) == 1
+    assert 'refused' not in node.log
+
+
 def test_stamps_far_from_the_clock_are_told_once_and_tracked(start_node, probe):
     """Who has forgotten use_sim_time reads of it, and has tracks all the same."""
     node = start_node()

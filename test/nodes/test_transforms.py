@@ -75,6 +75,24 @@ def test_contact_at_rest_stands_still_in_the_map(with_tf2, start_node, probe):
     assert probe.tables[-1].header.frame_id == 'map'
 
 
+def test_one_stamp_an_hour_ahead_costs_no_transform(with_tf2, start_node, probe):
+    """Nobody knows where the sensor will be then, and where it was before is kept."""
+    node = start_node(*USE_TF, 'tf_patience:=0.1')
+    transforms = probe.tell(TransformStamped, '/tf_stand_in')
+    probe.peer.wait_until_matched(transforms)
+    start = probe.stamp
+    for second in range(-1, 40):
+        transforms.publish(transform(start + second, start))
+    probe.meet()
+    for step in range(8):
+        probe.stamp = start + 4.0 * (step + 1)
+        if step == 5:
+            probe.send(plots(probe.stamp, start), probe.stamp + 3600.0)
+            node.wait_for_line('plots message refused: no transform')
+        table = probe.answer(plots(probe.stamp, start))
+    assert len(table['id'][table['status'] == 1]) == 1
+
+
 def test_plots_without_a_transform_are_dropped_in_time_and_told(with_tf2, start_node, probe):
     """The wait is bounded; the reason names both frames and is counted."""
     node = start_node(*USE_TF, 'tf_patience:=0.1')
