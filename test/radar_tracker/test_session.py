@@ -139,3 +139,27 @@ def test_wrong_time_within_a_turn_or_two_costs_no_id(off):
         after = to_columns(radar.plots(turn(number), 0.0), 10_000)
     assert after['id'].tolist() == before['id'].tolist()
     assert (after['hits'] - before['hits'] >= 5).all()
+
+
+def test_drawing_shows_where_tracks_were_and_how_their_gates_lie():
+    """Trails go through the places told; gates of far contacts are long across the sight."""
+    radar, told = session(), []
+    for number in range(20):
+        table = to_columns(radar.plots(scan(number), 0.0), 100)
+        told.append({i: xy for i, *xy in zip(table['id'], table['x'], table['y'], strict=True)})
+        radar.instrument.follow()
+    drawn = radar.instrument.draw(set(), radar.header(), radar_node_config().markers).markers
+    trails = {m.id: m.points for m in drawn if m.ns == 'history'}
+    gates = {m.id: m for m in drawn if m.ns == 'gate'}
+    assert len(trails) == len(gates) == 5
+    for name, points in trails.items():
+        newest_first = [places[name] for places in reversed(told) if name in places]
+        np.testing.assert_allclose([[p.x, p.y] for p in points], newest_first, rtol=1e-6)
+    for name, (x, y) in told[-1].items():
+        if np.hypot(x, y) > 45e3:  # azimuth noise is more than 80 m, range noise 50 m
+            turn, size = gates[name].pose.orientation, gates[name].scale
+            across = 2.0 * np.arctan2(turn.z, turn.w) - np.arctan2(y, x) - 0.5 * np.pi
+            assert (
+                abs(np.sin(across)) < 0.2
+            )  # the past noise of the track leans a little otherwise
+            assert size.x > 1.3 * size.y
