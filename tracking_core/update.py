@@ -132,14 +132,13 @@ def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:
     Not those whose gate is still being swept, and not those that compete with them for plots,
     unless they have waited long enough.
     """
-    rate = scan.coverage.rotation_rate
     left_behind = near.time + near.margin <= scan.coverage.end_time
-    if rate == 0.0 or left_behind.all():
-        return left_behind if rate else np.ones(len(near.time), bool)
+    if left_behind.all():
+        return np.asarray(left_behind)
     label, _ = clusters(gated.pairs.track, gated.pairs.plot, len(near.time), len(scan))
     waits = np.zeros(len(near.time), bool)
     waits[label[~left_behind]] = True
-    patience = LONGEST_WAIT * 2.0 * np.pi / abs(rate)
+    patience = LONGEST_WAIT * 2.0 * np.pi / abs(scan.coverage.rotation_rate)
     overdue = near.time + near.margin + patience <= scan.coverage.end_time
     return np.asarray(left_behind & (~waits[label] | overdue))
 
