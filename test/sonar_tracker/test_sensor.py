@@ -18,7 +18,7 @@ def marks(bearing_sd):
     nothing = np.full(len(FROM_AXIS), np.nan)
     return Bearings(
         time=np.zeros(len(FROM_AXIS)), bearing=FROM_AXIS, snr=nothing,
-        bearing_sd=np.full(len(FROM_AXIS), bearing_sd),
+        bearing_sd=np.broadcast_to(bearing_sd, len(FROM_AXIS)),
     )  # fmt: skip
 
 
@@ -42,3 +42,11 @@ def test_what_marks_tell_is_not_widened():
     np.testing.assert_allclose(sonar.mark_sd(marks(0.002)), 0.002)
     noise = sonar.noise(FROM_AXIS[:, None], Coverage(0.0, 1.0))
     np.testing.assert_allclose(noise, 0.003**2)
+
+
+def test_marks_that_tell_nothing_usable_have_the_sd_of_the_parameter():
+    """Not a number, infinite, zero and negative are no sd; one too small is not believed."""
+    sonar = Sonar(SensorConfig(bearing_sd=0.01, bearing_sd_min=0.002), 0.0)
+    told = np.array([np.nan, np.inf, 0.0, -1.0, 0.001])
+    found = sonar.mark_sd(marks(told))
+    np.testing.assert_allclose(found, [0.01, 0.01, 0.01, 0.01, 0.002])

@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Messages of more than one turn of the antenna, which passes some contacts twice in them."""
+"""Messages of more than one turn of the antenna, and of one that never came."""
 
 from __future__ import annotations
 
@@ -112,3 +112,14 @@ def test_first_look_of_a_long_message_counts_in_what_ends() -> None:
     report = tracker.state.report
     assert (report.broken, report.merged) == (1, 1)
     assert report.deleted.tolist() == [broken, double]
+
+
+@pytest.mark.parametrize('lost', [1, 3])
+def test_turns_whose_messages_were_lost_are_no_misses(lost: int) -> None:
+    """Nobody knows what the antenna saw meanwhile; then each track has its plot again."""
+    tracker = followed(12, {})
+    ids, hits = by_part(tracker, 'id'), by_part(tracker, 'hits')
+    tracker.track(message(12.0 + lost, 13.0 + lost))
+    assert by_part(tracker, 'id') == ids
+    assert by_part(tracker, 'hits') == {part: hits[part] + 1 for part in PARTS}
+    assert_array_equal(tracker.tracks.history & 0b11, 0b11)  # the last two looks have plots
