@@ -174,10 +174,35 @@ def test_what_waits_is_told_once_its_interval_is_over():
     assert feed.counts == {'plots': 15}
 
 
+@pytest.mark.parametrize('turn', [0.5, 1.0, 2.5])
+def test_target_told_twice_within_an_interval_is_one_plot(turn):
+    """Radars tell their targets once or twice a second; each is one contact, where it was last."""
+    feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
+    lines = [
+        ttm(number, f'{number + 0.001 * step:.3f}', utc=f'1200{turn * step:05.2f}')
+        for step in range(int(20.0 / turn))
+        for number in (1, 2, 3)
+    ]
+    messages = [to_columns(msg, 9) for _, msg in feed.messages(lines)]
+    assert [msg['id'].tolist() for msg in messages] == [[1, 2, 3]] * len(messages)
+    told_last = int(20.0 / turn) - 1
+    assert messages[-1]['range'][0] == pytest.approx(1852.0 * (1.0 + 0.001 * told_last))
+    assert len(messages) == pytest.approx(20.0 / max(turn, 2.0), abs=1)
+
+
+def test_targets_without_a_number_are_all_told():
+    """Nobody knows which of them are the same."""
+    feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
+    ((_, msg),) = feed.messages([ttm(0), ttm(0, distance='11.0')])
+    assert msg.width == 2
+
+
 def test_clock_of_a_sender_that_stands_still_ends_messages_all_the_same():
     """A radar without a fix sends one time for ever: what waits is bounded, live."""
     feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
-    told = [feed.take(ttm(1, utc='120000.00'), 100.0 + 0.1 * step) for step in range(200)]
+    told = [
+        feed.take(ttm(step % 90 + 1, utc='120000.00'), 100.0 + 0.1 * step) for step in range(200)
+    ]
     widths = [msg.width for _, msg in filter(None, told)]
     assert max(widths) <= 21
     assert sum(widths) >= 200 - 21
@@ -187,8 +212,8 @@ def test_clock_of_a_sender_that_stands_still_ends_messages_all_the_same():
 def test_time_that_goes_back_ends_a_message_and_is_counted(wrong):
     """One sentence is an hour ahead, or five minutes behind: the others lose nothing."""
     feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
-    lines = [ttm(1, utc=f'1200{second:05.2f}') for second in range(20)]
-    lines.insert(10, ttm(1, utc=wrong))
+    lines = [ttm(second + 1, utc=f'1200{second:05.2f}') for second in range(20)]
+    lines.insert(10, ttm(30, utc=wrong))
     messages = [msg for _, msg in feed.messages(lines)]
     assert sum(msg.width for msg in messages) == 21
     assert max(msg.width for msg in messages) == 2

@@ -90,8 +90,11 @@ class Feed:
         """Return what waits for its interval to end as a message, None if nothing waits."""
         if not self._waiting:
             return None
-        stamp = min(time for time, _ in self._waiting)
-        plots = [(time, r) for time, r in self._waiting if np.isfinite(r.range)]
+        newest = _newest(self._waiting)
+        if len(newest) < len(self._waiting):
+            self.counts['told again within a message'] += len(self._waiting) - len(newest)
+        stamp = min(time for time, _ in newest)
+        plots = [(time, r) for time, r in newest if np.isfinite(r.range)]
         self._waiting = []
         self.counts['plots'] += len(plots)
         self.told += 1
@@ -138,6 +141,12 @@ class Feed:
             **({'range_rate': doppler} if self._with_doppler else {}),
             'id': np.array([report.track for _, report in plots], np.uint32),
         }
+
+
+def _newest(reports: Sequence[tuple[float, Report]]) -> list[tuple[float, Report]]:
+    """Return the last report of each numbered target: twice in a scan it would be two contacts."""
+    last = {report.track or -place: (time, report) for place, (time, report) in enumerate(reports)}
+    return list(last.values())
 
 
 def describe(feed: Feed) -> str:
