@@ -21,6 +21,7 @@ import numpy as np
 from msg_adapters.bad_message import BadMessage
 
 NANOSECONDS = 1_000_000_000
+EARLIEST, LATEST = -(2.0**31), 2.0**31 - 1.0  # s since the epoch that a stamp can tell
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,8 @@ class MessageTypes:
     KeyValue: Any
 
     def header(self, time: float, frame: str) -> Any:
-        """Return a header stamped with `time` [s since the epoch]."""
+        """Return a header stamped with `time` [s since the epoch], as near as a stamp can be."""
+        time = min(max(time, EARLIEST), LATEST)
         whole = int(time // 1)
         nanosec = round((time - whole) * NANOSECONDS)
         if nanosec == NANOSECONDS:

@@ -125,3 +125,21 @@ def test_bad_own_ship_is_refused(start_node, probe):
     probe.peer.ask(lambda _: ownship.publish(msg), lambda: refused in node.log, refused)
     assert 'pose.pose.orientation has length 0' in node.wait_for_line(refused)
     probe.scan()
+
+
+def test_end_of_time_does_not_end_the_node(start_node, probe):
+    """Plots after the last stamp that a message can have: tracks of then are told all the same."""
+    start_node()
+    odometry = []
+    end = probe.hear(Odometry, 'radar_tracker/odometry', odometry)
+    probe.stamp = 2.0**31 - 46.0
+    probe.meet()
+    probe.peer.wait_until_matched(end)
+    later = {'time': np.array([0.0, 2.0, 9.0], np.float32)}
+    for _ in range(11):
+        probe.stamp += 4.0
+        table = probe.answer(probe.sensor.contacts(1e6 + probe.stamp - 2.0**31) | later)
+    assert (table['status'] == 1).sum() == 3
+    probe.spin_until(
+        lambda: odometry[-1:] and odometry[-1].header.stamp.sec == 2**31 - 1, 'tracks'
+    )
