@@ -88,6 +88,14 @@ def test_radar_scan_of_a_2d_radar_has_no_elevation(ros):
     assert np.isnan(plots.elevation).all()
 
 
+def test_radar_scan_of_a_radar_without_doppler_has_no_range_rate(ros):
+    """0 for all returns is no speed: contacts that move would be drawn back to rest."""
+    rows = [(1e3, 0.5, 0.1, 0.0, 3.0), (2e3, 0.7, 0.1, 0.0, 5.0)]
+    assert np.isnan(to_plots(radar_scan(ros, *rows), RADAR, 9).plots.range_rate).all()
+    measured = to_plots(radar_scan(ros, *rows, (2e3, 0.9, 0.1, 0.1, 5.0)), RADAR, 9)
+    np.testing.assert_allclose(measured.plots.range_rate, [0.0, 0.0, 0.1])
+
+
 def test_empty_messages_are_scans_without_plots(ros):
     """A look that saw nothing is a look."""
     assert len(to_plots(radar_scan(ros), RADAR, 9).plots) == 0
