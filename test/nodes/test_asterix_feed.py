@@ -8,6 +8,7 @@ import sys
 import time
 
 import pytest
+from sensor_msgs.msg import PointCloud2
 
 from msg_adapters.message_types import seconds
 from msg_adapters.table import to_columns
@@ -76,3 +77,16 @@ def test_feed_that_publishes_nothing_says_what_comes(feed, probe):
             lambda _: radar.sendto(bytes([62, 0, 5, 1, 2]), ('127.0.0.1', port)),
             lambda: said in process.log, 'a word on what comes', again=0.1, deadline=30.0,
         )  # fmt: skip
+
+
+def test_damaged_time_does_not_hold_up_a_file(probe, ros_domain_id, tmp_path):
+    """One of the reports seems five hours later: nobody waits so long for it."""
+    path, heard = tmp_path / 'night.ast', []
+    times = [1000.0 + 0.25 * turn for turn in range(8)]
+    times[3] += 5 * 3600.0
+    path.write_bytes(b''.join(datagram(time_of_day, 10.0) for time_of_day in times))
+    probe.hear(PointCloud2, 'plots', heard)
+    command = [sys.executable, '-m', 'tracking_tools.asterix', str(path)]
+    with NodeProcess(command, ros_domain_id, tmp_path / 'feed.log') as process:
+        probe.spin_until(lambda: len(heard) == 8, 'all plots', 40.0)
+        assert process.wait() == 0

@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import chain, pairwise
+import math
 import signal
 import socket
 from threading import Event
@@ -139,10 +141,11 @@ def _hear(node: FeedNode, hearing: socket.socket, is_over: Callable[[], bool]) -
 def _play(node: FeedNode, chunks: Iterable[bytes], rate: float, stop: Event) -> None:
     while not node.has_listener() and not stop.wait(ATTENTION):
         pass
-    begun, first = time.monotonic(), None
-    for stamp, msg in node.feed.messages(chunks):
-        first = stamp if first is None else first
-        if stop.wait(max(begun + (stamp - first) / rate - time.monotonic(), 0.0)):
+    begun, first, end = time.monotonic(), None, (math.inf, None)
+    for (stamp, msg), (following, _) in pairwise(chain(node.feed.messages(chunks), [end])):
+        due = min(stamp, following)  # a damaged time may be hours ahead
+        first = due if first is None else first
+        if stop.wait(max(begun + (due - first) / rate - time.monotonic(), 0.0)):
             return
         node.tell(msg)
         node.report()
