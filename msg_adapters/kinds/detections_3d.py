@@ -19,7 +19,8 @@ def detections_3d(msg: Any) -> Columns:
     """
     Return x, y, z [m] and their covariance from the best hypothesis of each detection.
 
-    Without a hypothesis the box says where it is, and nothing how sure that is.
+    Without a hypothesis, or with one whose position was left at 0, the box says where it is; how
+    sure that is only a hypothesis says.
     """
     poses = [_best(one) for one in msg.detections]
     return {
@@ -32,5 +33,7 @@ def _best(detection: Any) -> tuple[Any, Any]:
     """Return pose and covariance (36,)."""
     if len(detection.results) == 0:
         return detection.bbox.center, NOT_TOLD
-    best = max(detection.results, key=lambda result: result.hypothesis.score)
-    return best.pose.pose, best.pose.covariance
+    best = max(detection.results, key=lambda result: result.hypothesis.score).pose
+    p = best.pose.position
+    is_told = any((p.x, p.y, p.z))
+    return best.pose if is_told else detection.bbox.center, best.covariance

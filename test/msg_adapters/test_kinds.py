@@ -197,11 +197,15 @@ def test_detections_are_where_the_best_hypothesis_says(ros):
     box = ros('vision_msgs/BoundingBox3D', center=pose(ros, 30.0, 4.0), size=size)
     found = [
         ros('vision_msgs/Detection3D', header=header(ros), results=results, bbox=box, id='')
-        for results in ([hypothesis(0.2, 10.0), hypothesis(0.7, 20.0)], [])
+        for results in (
+            [hypothesis(0.2, 10.0), hypothesis(0.7, 20.0)],
+            [],
+            [hypothesis(0.9, 0.0)],  # of a detector that tells a class, and leaves the pose alone
+        )
     ]
     msg = ros('vision_msgs/Detection3DArray', header=header(ros), detections=found)
     plots = to_plots(msg, RADAR, 9).plots
-    np.testing.assert_array_equal(plots.position[:, :2], [[20.0, 0.0], [30.0, 4.0]])
+    np.testing.assert_array_equal(plots.position[:, :2], [[20.0, 0.0], [30.0, 4.0], [30.0, 4.0]])
 
 
 def detections(ros, speed=1500.0, **changes):
