@@ -27,7 +27,12 @@ SITE = {
 FADED, TWICE, CUT, GONE, ONCE = PARTS = (0.05, 0.15, 0.3, 0.45, 0.7)
 
 
-def message(first: float, last: float, silent: dict[float, float] | None = None) -> Plots:
+both_ways = pytest.mark.parametrize('sense', [1.0, -1.0], ids=['anticlockwise', 'clockwise'])
+
+
+def message(
+    first: float, last: float, silent: dict[float, float] | None = None, sense: float = 1.0
+) -> Plots:
     """Return the plots from one turn to another, of the silent contacts up to a turn only."""
     passes = [
         (turn + part, part)
@@ -36,22 +41,22 @@ def message(first: float, last: float, silent: dict[float, float] | None = None)
         if first <= turn + part < min(last, (silent or {}).get(part, np.inf))
     ]
     turns, parts = np.array(sorted(passes)).reshape(-1, 2).T
-    plots = Plots.polar(PERIOD * turns, np.full(len(turns), 20_000.0), 2.0 * np.pi * parts)
+    plots = Plots.polar(PERIOD * turns, np.full(len(turns), 20_000.0), sense * 2.0 * np.pi * parts)
     return replace(plots, stamp=PERIOD * first)
 
 
-def followed(turns: int, silent: dict[float, float]) -> RadarTracker:
+def followed(turns: int, silent: dict[float, float], sense: float = 1.0) -> RadarTracker:
     """Return a tracker after messages of one turn each."""
     tracker = RadarTracker(with_values(RadarTrackerConfig(), SITE))
     for turn in range(turns):
-        tracker.track(message(turn, turn + 1, silent))
+        tracker.track(message(turn, turn + 1, silent, sense))
     return tracker
 
 
-def by_part(tracker: RadarTracker, column: str) -> dict[float, int]:
+def by_part(tracker: RadarTracker, column: str, sense: float = 1.0) -> dict[float, int]:
     """Return a column of the tracks by where the antenna passes them."""
     place = tracker.tracks.planes[0].average[:, 0::2]
-    part = np.arctan2(place[:, 1], place[:, 0]) / (2.0 * np.pi) % 1.0
+    part = sense * np.arctan2(place[:, 1], place[:, 0]) / (2.0 * np.pi) % 1.0
     values = getattr(tracker.tracks, column).tolist()
     return dict(zip(np.round(part, 3).tolist(), values, strict=True))
 
@@ -80,18 +85,19 @@ def test_second_pass_in_a_message_is_a_look_like_any_other() -> None:
     assert_array_equal(tracker.tracks.misses, 0)
 
 
+@both_ways
 @pytest.mark.parametrize('turns', [2, 3, 6])
-def test_every_pass_of_a_long_message_is_a_look(turns: int) -> None:
+def test_every_pass_of_a_long_message_is_a_look(turns: int, sense: float) -> None:
     """Plots that were collected over some turns: all are used, as in messages of one turn."""
-    tracker, end = followed(12, {}), 12.31 + turns
-    ids = by_part(tracker, 'id')
-    tracker.track(message(12.0, end))
+    tracker, end = followed(12, {}, sense), 12.31 + turns
+    ids = by_part(tracker, 'id', sense)
+    tracker.track(message(12.0, end, sense=sense))
     begun = {part: 12 + turns + (part < CUT) for part in PARTS}
-    assert by_part(tracker, 'hits') == begun
+    assert by_part(tracker, 'hits', sense) == begun
     assert (tracker.state.report.held, len(tracker.state.seeds)) == (1, 0)
-    tracker.track(message(end, end + 1.0))
-    assert by_part(tracker, 'hits') == {part: hits + 1 for part, hits in begun.items()}
-    assert by_part(tracker, 'id') == ids
+    tracker.track(message(end, end + 1.0, sense=sense))
+    assert by_part(tracker, 'hits', sense) == {part: hits + 1 for part, hits in begun.items()}
+    assert by_part(tracker, 'id', sense) == ids
     assert_array_equal(tracker.tracks.misses, 0)
 
 
