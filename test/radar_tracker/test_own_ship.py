@@ -173,6 +173,7 @@ def test_true_directions_without_times_stay_true_while_the_ship_swings():
     assert rows.sum() == len(BUOYS)
     apart = np.hypot(*(np.stack([table['x'], table['y']])[:, rows, None] - BUOYS.T[:, None]))
     assert apart.min(axis=0).max() < 5.0
+    assert np.isnan(table['gate_z']).all()  # no plot has an elevation, turned or not
 
 
 def test_noise_of_north_up_places_is_turned_with_them():

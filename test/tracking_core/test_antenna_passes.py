@@ -121,6 +121,19 @@ def test_seam_really_splits_and_doubles_passes() -> None:
     assert min(held + moving) < max(held + moving)
 
 
+@both_ways
+def test_fast_contacts_beside_the_cut_miss_no_pass(rotation: str) -> None:
+    """Away from the radar at 250 m/s: a turn later they are out of the gate that they were in."""
+    sense = 1.0 if rotation == 'clockwise' else -1.0
+    beside = tuple(
+        at(NORTH + sense * offset, 5_000.0 + 2_500.0 * k, 250.0, NORTH + sense * offset, k + 1)
+        for k, offset in enumerate([0.001, 0.004, 0.008])
+    )
+    tracks = followed(replace(RADAR, rotation=rotation), beside, 26).tracks
+    assert_array_equal(tracks.hits, 25)
+    assert tracks.id.max() == len(tracks) == len(beside)
+
+
 def test_contacts_beside_the_cut_do_not_take_turns_at_waiting() -> None:
     """Missed now and then, a gate is wider in the next look; it waits, or does not, for long."""
     beside = tuple(
