@@ -19,6 +19,7 @@ from tracking_tools.ais.sentences import read_positions
 from tracking_tools.bags import open_bag
 from tracking_tools.feeds.feed import Feed
 from tracking_tools.feeds.report import polar_of
+from tracking_tools.feeds.sources import open_udp
 from tracking_tools.nmea.__main__ import main
 from tracking_tools.nmea.sentences import read_sentences
 
@@ -188,6 +189,17 @@ def test_target_told_twice_within_an_interval_is_one_plot(turn):
     told_last = int(20.0 / turn) - 1
     assert messages[-1]['range'][0] == pytest.approx(1852.0 * (1.0 + 0.001 * told_last))
     assert len(messages) == pytest.approx(20.0 / max(turn, 2.0), abs=1)
+
+
+def test_port_that_another_feed_hears_is_refused():
+    """Of two that hear one port of this machine only the last one would be sent to."""
+    with open_udp('udp://127.0.0.1:0') as first:
+        port = first.getsockname()[1]
+        with pytest.raises(OSError, match='in use'):
+            open_udp(f'udp://127.0.0.1:{port}')
+    everybody = f'udp://0.0.0.0:{port}'
+    with open_udp(everybody), open_udp(everybody):
+        pass
 
 
 def test_targets_without_a_number_are_all_told():

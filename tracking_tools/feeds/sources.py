@@ -29,10 +29,16 @@ def open_udp(address: str) -> socket.socket:
     if parts.scheme != 'udp' or not parts.hostname or parts.port is None:
         raise ValueError(f'address must be udp://HOST:PORT, got {address}')
     hearing = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    hearing.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    hearing.bind((parts.hostname, parts.port))
     group = socket.inet_aton(socket.gethostbyname(parts.hostname))
-    if 224 <= group[0] < 240:
+    is_group = 224 <= group[0] < 240
+    if is_group or not any(group):  # what is sent to all may be heard by many, else by one alone
+        hearing.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        hearing.bind((parts.hostname, parts.port))
+    except OSError:
+        hearing.close()
+        raise
+    if is_group:
         request = group + socket.inet_aton('0.0.0.0')  # noqa: S104 (any interface joins the group)
         hearing.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, request)
     hearing.settimeout(PATIENCE)
