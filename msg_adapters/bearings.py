@@ -73,7 +73,7 @@ def to_bearings(
         frame=message.frame,
     )
     keep, dropped = choose_rows(marks, bearing_checks(bearing))
-    refuse_if_useless(keep, dropped)
+    refuse_if_useless(msg, keep, dropped)
     marks = take(marks, keep)
     marks = replace(marks, bearing=wrap_angle(marks.bearing))
     return Reading(marks, dropped, doubtful, message.mapping)

@@ -101,7 +101,7 @@ def to_plots(
     plots = _assemble({**read, **told}, covariance, polar, message, sensor)
     checks = plot_checks(plots, polar, sensor.range_min, sensor.range_max)
     keep, dropped = choose_rows(plots, checks, longest)
-    refuse_if_useless(keep, dropped)
+    refuse_if_useless(msg, keep, dropped)
     plots = take(plots, keep)
     if polar:
         plots = replace(plots, azimuth=wrap_angle(plots.azimuth))

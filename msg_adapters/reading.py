@@ -15,7 +15,7 @@ from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import find_fields, Names
 from msg_adapters.kinds.menu import columns_of, tells_unit
 from msg_adapters.message_types import NANOSECONDS, stamp_of
-from msg_adapters.row_checks import OUT_OF_RANGE
+from msg_adapters.row_checks import NO_NUMBER, OUT_OF_RANGE
 from msg_adapters.table import Columns
 from tracking_core.batches import Bearings, Bools, Floats, Plots
 
@@ -103,9 +103,16 @@ def _offset(
     return np.where(absolute, time - stamp, time)
 
 
-def refuse_if_useless(keep: Bools, dropped: Mapping[str, int]) -> None:
-    """Raise BadMessage where no row (M,) is left for other reasons than the sensor's limits."""
-    if not keep.any() and any(not reason.startswith(OUT_OF_RANGE) for reason in dropped):
+def refuse_if_useless(msg: Any, keep: Bools, dropped: Mapping[str, int]) -> None:
+    """
+    Raise BadMessage where no row (M,) is left for other reasons than the sensor's limits.
+
+    Rows without a number are none either where the message says that not all are points.
+    """
+    reasons = [reason for reason in dropped if not reason.startswith(OUT_OF_RANGE)]
+    if not getattr(msg, 'is_dense', True):
+        reasons = [reason for reason in reasons if not reason.endswith(NO_NUMBER)]
+    if not keep.any() and reasons:
         # Not the same as a scan that saw nothing: tracks must not miss it.
-        reasons = ', '.join(f'{reason} ({count})' for reason, count in dropped.items())
-        raise BadMessage('no usable row', f'none of {len(keep)} rows can be used: {reasons}')
+        told = ', '.join(f'{reason} ({count})' for reason, count in dropped.items())
+        raise BadMessage('no usable row', f'none of {len(keep)} rows can be used: {told}')

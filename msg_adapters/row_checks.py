@@ -25,6 +25,7 @@ LIMITS = {
 WITHOUT_REFERENCE = ('amplitude',)  # nobody can say which of its values are wrong
 WIDEST = 2.51 * np.pi  # a quarter turn more than one: compass angles have been turned already
 OUT_OF_RANGE = ('range below', 'range beyond')  # reasons that no fault is behind
+NO_NUMBER = 'is not a number'  # so a reason ends, which may be none: see `is_dense`
 Check = tuple[str, Bools]  # a reason, and the rows (M,) that it holds for
 
 
@@ -67,14 +68,14 @@ def choose_rows(
 
 
 def _time_checks(rows: Plots | Bearings, longest: float) -> Iterator[Check]:
-    yield 'time is not a number', ~np.isfinite(rows.time)
+    yield f'time {NO_NUMBER}', ~np.isfinite(rows.time)
     late = np.abs(rows.time - rows.stamp) > longest
     yield f'time more than {longest:.3g} s off the stamp', late
 
 
 def bearing_checks(bearing: Floats) -> Iterator[Check]:
     """Yield what can be wrong with the bearings (M,) of a sonar."""
-    yield 'bearing is not a number', ~np.isfinite(bearing)
+    yield f'bearing {NO_NUMBER}', ~np.isfinite(bearing)
     yield 'bearing beyond 2 pi', np.abs(bearing) > WIDEST
 
 
@@ -87,18 +88,18 @@ def plot_checks(plots: Plots, polar: bool, range_min: float, range_max: float) -
 
 
 def _polar_checks(plots: Plots) -> Iterator[Check]:
-    yield 'range is not a number', ~np.isfinite(plots.range)
+    yield f'range {NO_NUMBER}', ~np.isfinite(plots.range)
     yield 'range is negative', plots.range < 0.0
-    yield 'azimuth is not a number', ~np.isfinite(plots.azimuth)
+    yield f'azimuth {NO_NUMBER}', ~np.isfinite(plots.azimuth)
     yield 'azimuth beyond 2 pi', np.abs(plots.azimuth) > WIDEST
-    yield 'elevation is not a number', _partly_missing(plots.elevation)
+    yield f'elevation {NO_NUMBER}', _partly_missing(plots.elevation)
     yield 'elevation beyond pi / 2 (degrees?)', np.abs(plots.elevation) > 0.51 * np.pi
 
 
 def _position_checks(plots: Plots) -> Iterator[Check]:
     for axis, name in enumerate('xy'):
-        yield f'{name} is not a number', ~np.isfinite(plots.position[:, axis])
-    yield 'z is not a number', _partly_missing(plots.position[:, 2])
+        yield f'{name} {NO_NUMBER}', ~np.isfinite(plots.position[:, axis])
+    yield f'z {NO_NUMBER}', _partly_missing(plots.position[:, 2])
 
 
 def _partly_missing(values: Floats) -> Bools:

@@ -257,6 +257,18 @@ def test_message_of_bad_rows_only_is_refused(types):
     assert len(to_plots(far, Sensor(), 9).plots) == 0
 
 
+@pytest.mark.parametrize('columns', [('range', 'azimuth'), ('x', 'y', 'z')])
+def test_cloud_of_no_points_is_a_scan_that_saw_nothing_where_it_says_so(types, columns):
+    """Organised clouds have NaN where nothing is, and is_dense false: else tracks never end."""
+    msg = message(types, **{name: [np.nan] * 4 for name in columns})
+    with pytest.raises(BadMessage, match='none of 4 rows'):
+        to_plots(msg, Sensor(), 9)
+    msg.is_dense = False
+    reading = to_plots(msg, Sensor(), 9)
+    assert (len(reading.plots), reading.plots.stamp) == (0, 100.0)
+    assert reading.dropped == {f'{columns[0]} is not a number': 4}
+
+
 def test_from_plots_and_back_is_the_same(types):
     """What a simulator writes is what the tracker reads."""
     plots = Plots.polar(
