@@ -7,7 +7,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from radar_tracker.antenna import Sweep
 from radar_tracker.config import MountConfig, SensorConfig
@@ -52,7 +51,17 @@ def levelled(rotation: Floats, place: Floats) -> Floats:
     ray = np.einsum('mij,mj->mi', rotation[:, :, :2], place[:, :2])
     ray = ray - (ray[:, 2] / np.maximum(normal[:, 2], _LEAST_UPRIGHT))[:, None] * normal
     angle = np.arctan2(ray[:, 1], ray[:, 0]) - np.arctan2(place[:, 1], place[:, 0])
-    return np.asarray(Rotation.from_euler('z', angle[:, None]).as_matrix())
+    return _about_vertical(angle)
+
+
+def _about_vertical(angle: Floats) -> Floats:
+    """Return rotations (M, 3, 3); scipy's of Ubuntu 24.04 refuses to make none."""
+    rotation = np.zeros((len(angle), 3, 3))
+    rotation[:, 0, 0] = rotation[:, 1, 1] = np.cos(angle)
+    rotation[:, 1, 0] = np.sin(angle)
+    rotation[:, 0, 1] = -rotation[:, 1, 0]
+    rotation[:, 2, 2] = 1.0
+    return rotation
 
 
 def in_sensor_axes(plots: Plots, pose: PlatformPose, mount: MountConfig) -> Plots:
@@ -80,7 +89,7 @@ def in_sensor_axes(plots: Plots, pose: PlatformPose, mount: MountConfig) -> Plot
     elevation = np.where(np.isnan(plots.elevation), np.nan, elevation)
     place, noise = _turned_back(back, plots.position), plots.position_covariance.copy()
     # What the noise has to do with heights, which may be NaN, is left out and does not spread.
-    ground_back = Rotation.from_euler('z', -(pose.yaw + mount.yaw)[:, None]).as_matrix()[:, :2, :2]
+    ground_back = _about_vertical(-(pose.yaw + mount.yaw))[:, :2, :2]
     noise[:, :2, :] = ground_back @ noise[:, :2, :]
     noise[:, :, :2] = noise[:, :, :2] @ np.swapaxes(ground_back, 1, 2)
     return replace(

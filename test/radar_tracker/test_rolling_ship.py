@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from radar_tracker.config import MountConfig, SensorConfig
+from radar_tracker.config import MountConfig, RadarTrackerConfig, SensorConfig
 from radar_tracker.mounting import arm_velocity, in_sensor_axes, sensor_pose
 from radar_tracker.sensor import Radar
+from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Coverage, Plots
+from tracking_core.config import with_values
 from tracking_core.platform import PlatformPose
 
 MOUNT = MountConfig(x=30.0, y=-8.0, z=12.0, yaw=0.4)
@@ -92,3 +94,12 @@ def test_sensor_moves_as_its_mount_is_swung():
     radar = Radar(SensorConfig(mount=MOUNT), 2, is_polar=True)
     scan = radar.measure(plots, pose, Coverage(0.0, 1.0), 1.0)
     np.testing.assert_allclose(scan.sensor_velocity, moved, atol=1e-5)
+
+
+def test_nothing_seen_from_a_turned_mount_is_a_look() -> None:
+    """An empty scan of a 2-D radar; scipy 1.11 makes no rotations of nothing."""
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), {'sensor.mount.yaw': 1.0}))
+    nothing = np.zeros(0)
+    plots = replace(Plots.polar(nothing, nothing, nothing), stamp=5.0)
+    assert len(tracker.track(plots)) == 0
+    assert tracker.coverage.end_time == 5.0
