@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
+import pytest
 
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.tracker import RadarTracker
@@ -68,3 +69,60 @@ def test_contacts_side_by_side_are_confirmed_as_soon_as_one_alone() -> None:
         message = Plots.cartesian(np.full(4, 4.0 * scan), place)
         tracks = tracker.track(replace(message, stamp=4.0 * scan))
     assert len(tracks) == tracks.confirmed.sum() == 4
+
+
+def after(looks, **values):
+    """Return a tracker after looks every 4 s, each a list of places (x, y) or (x, y, z)."""
+    site = {
+        'scan.assembly': 'snapshot',
+        'sensor.position_sd': 20.0,
+        'sensor.range_max': 40_000.0,
+        'initiation.speed_max': 150.0,
+        'clutter_density': 1e-10,
+        **{name.replace('__', '.'): value for name, value in values.items()},
+    }
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), site))
+    for number, places in enumerate(looks):
+        position = np.asarray(places, float).reshape(len(places), -1 if places else 2)
+        message = Plots.cartesian(np.full(len(places), 4.0 * number), position)
+        tracker.track(replace(message, stamp=4.0 * number))
+    return tracker
+
+
+HERE, BESIDE = (9_000.0, 4_000.0), (9_000.0, 4_400.0)
+
+
+@pytest.mark.parametrize(
+    ('memory', 'gap', 'starts'),
+    [(1.5, 1, 1), (1.5, 2, 0), (2.5, 2, 1), (2.5, 3, 0), (3.5, 3, 1), (3.5, 4, 0)],
+)
+def test_plot_waits_for_a_second_one_as_long_as_its_memory(memory, gap, starts) -> None:
+    """So many looks later a second one starts a track, after one look more it does not."""
+    looks = [[HERE], *[[]] * (gap - 1), [HERE]]
+    tracker = after(looks, initiation__memory=memory)
+    assert len(tracker.tracks) == tracker.state.report.started == starts
+
+
+@pytest.mark.parametrize(('method', 'first'), [('one_point', 1), ('two_point', 0)])
+def test_one_point_starts_in_the_first_look(method: str, first: int) -> None:
+    """The other needs two."""
+    assert len(after([[HERE]], initiation__method=method).tracks) == first
+    assert len(after([[HERE], [HERE]], initiation__method=method).tracks) == 1
+
+
+def test_plot_of_a_new_track_hardly_starts_another() -> None:
+    """A stray plot within reach of it one look later is a second contact only perhaps."""
+    alone = after([[HERE], [BESIDE]], initiation__memory=1.5).tracks
+    assert alone.existence_probability[0] > 0.99
+    tracks = after([[HERE], [HERE], [HERE, BESIDE]], initiation__memory=1.5).tracks
+    assert tracks.existence_probability[0] > 0.99
+    assert (tracks.existence_probability[1:] < 0.2).all()
+
+
+@pytest.mark.parametrize('method', ['one_point', 'two_point'])
+def test_plots_without_height_start_nothing_in_three_dimensions(method: str) -> None:
+    """A track needs to be somewhere; those with a height start as ever."""
+    looks = [[(*HERE, np.nan), (2_000.0, 9_000.0, 500.0)]] * 3
+    tracker = after(looks, initiation__method=method, sensor__dimensions=3)
+    assert len(tracker.tracks) == 1
+    assert np.isfinite(tracker.tracks.planes[1].mean).all()
