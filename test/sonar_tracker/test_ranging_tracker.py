@@ -68,8 +68,25 @@ def test_tracker_tells_the_range() -> None:
     assert found.range_sd[row] < 40.0
     off = found.state[row] - contact
     assert off @ np.linalg.solve(found.covariance[row], off) < 25.0
+    tracker.ranging.config = replace(tracker.config.ranging, relative_sd=1e-3)
+    unsure = tracker.ranges()  # as all are that are not so sure
+    assert not unsure.observable.any()
+    for values in (unsure.range, unsure.range_sd, unsure.speed, unsure.course, unsure.state):
+        assert np.isnan(values).all()
     tracker.reset()
     assert len(tracker.ranges()) == 0
+
+
+def test_cycles_without_a_mark_tell_nothing_of_ranges() -> None:
+    """A contact that falls silent for a while has the marks that were heard."""
+    tracker, nothing = SonarTracker(SonarTrackerConfig()), np.zeros(0)
+    for k in range(10):
+        tracker.track(Bearings.of(np.full(1, 2.0 * k), np.full(1, 0.3)))
+    heard = tracker.ranging.history.remember()
+    for k in (10, 11):
+        tracker.track(Bearings(nothing, nothing, nothing, nothing, 2.0 * k))
+    assert tracker.tracks.misses.tolist() == [2]
+    assert_array_equal(tracker.ranging.history.remember()['count'], heard['count'])
 
 
 def test_ranging_can_be_off() -> None:
@@ -94,7 +111,7 @@ def test_cycles_that_are_followed_again_tell_nothing_new_of_ranges() -> None:
     for cycle in cycles:
         tracker.track(cycle)
     heard = tracker.ranging.history.remember()
-    assert heard['count'][0] >= 8
+    assert 8 <= heard['count'][0] < len(cycles)  # from its confirmation on
     tracker.restore(before)
     late = Bearings.of(np.full(1, 1.0), np.full(1, 0.3), bearing_sd=np.full(1, SD))
     for cycle in (cycles[0], late, *cycles[1:]):

@@ -126,3 +126,23 @@ def test_plots_without_height_start_nothing_in_three_dimensions(method: str) -> 
     tracker = after(looks, initiation__method=method, sensor__dimensions=3)
     assert len(tracker.tracks) == 1
     assert np.isfinite(tracker.tracks.planes[1].mean).all()
+
+
+def test_likeliest_of_new_tracks_has_the_only_place_left() -> None:
+    """One that would be fast is less likely than one at rest, in whatever order they come."""
+    slow, fast = [HERE, HERE], [(2_000.0, 9_000.0), (2_550.0, 9_000.0)]
+    for first, second in ((slow, fast), (fast, slow)):
+        looks = list(zip(first, second, strict=True))
+        tracks = after(looks, max_tracks=1).tracks
+        assert_allclose(tracks.planes[0].average[:, 0::2], [HERE])
+        both = after(looks).tracks
+        assert_allclose(both.planes[0].average[0, 0::2], HERE)
+        assert both.id.tolist() == [1, 2]
+
+
+@pytest.mark.parametrize('hits', [3, 4, 5])
+def test_counted_plots_begin_with_the_two_of_the_start(hits: int) -> None:
+    """So many of five: confirmed with the plot that makes them full, not before."""
+    count = {'lifecycle': 'm_of_n', 'm_of_n__hits': hits}
+    assert after([[HERE]] * (hits - 1), **count).tracks.confirmed.tolist() == [False]
+    assert after([[HERE]] * hits, **count).tracks.confirmed.tolist() == [True]
