@@ -122,6 +122,16 @@ def test_m_of_n_gives_up_hopeless_and_lost_tracks() -> None:
     assert_array_equal(gone, [True, False, True, False, False])
 
 
+def test_leniency_is_for_tentative_tracks() -> None:
+    """In dense clutter they may be ten times less likely; one that was confirmed may not."""
+    lifecycle, existence = Existence(ExistenceConfig(drop=0.02)), np.array([0.015, 0.015, 0.0015])
+    tracks = replace(make_tracks(3), confirmed=np.array([True, False, False]))
+    confirmed, ended = lifecycle.judge(tracks, existence, leniency=10.0)
+    assert_array_equal(ended, [True, False, True])
+    assert_array_equal(confirmed, tracks.confirmed)
+    assert_array_equal(lifecycle.judge(tracks, existence)[1], [True, True, True])
+
+
 def test_m_of_n_knows_no_doubt() -> None:
     """Existence is 1 for counting."""
     assert_array_equal(MOfN(MOfNConfig()).prior(make_tracks(2), np.ones(2)), [1.0, 1.0])
