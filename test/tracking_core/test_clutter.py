@@ -48,3 +48,13 @@ def test_estimate_density_follows_a_jump_at_once() -> None:
     density, looks = 10.0 / VOLUME, 10.0
     density, looks = estimate_density(density, looks, 200.0, VOLUME, 1.0)
     assert (density * VOLUME, looks) == (pytest.approx(200.0), 1.0)
+
+
+@pytest.mark.parametrize(('count', 'is_jump'), [(28.0, False), (40.0, True)])
+def test_estimate_density_knows_a_jump_in_a_sector(count: float, is_jump: bool) -> None:
+    """An eighth of a turn with 10 plots usually: twice that and ten more are still chance."""
+    density, looks = 80.0 / VOLUME, 10.0
+    density, looks = estimate_density(density, looks, count, VOLUME, 0.125)
+    expected = 8.0 * count if is_jump else 80.0 + 0.0125 * (8.0 * count - 80.0)
+    assert density * VOLUME == pytest.approx(expected)
+    assert looks == (0.125 if is_jump else 10.0)
