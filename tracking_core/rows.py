@@ -42,7 +42,7 @@ def take_of_both(first: Batch, second: Batch, rows: NDArray[Any]) -> Batch:
 
 
 def put(batch: Batch, rows: NDArray[Any], part: Batch) -> Batch:
-    """Return the batch with these rows replaced by the rows of `part`."""
+    """Return the batch with these rows, ascending, replaced by the rows of `part`."""
 
     def replace(old: NDArray[Any], new: NDArray[Any]) -> NDArray[Any]:
         if len(new) == len(old):

@@ -16,6 +16,7 @@ import shutil
 import signal
 import sys
 
+from tracking_tools.arguments import positive
 from tracking_tools.bags import BadBag
 from tracking_tools.demo_player import play
 from tracking_tools.demo_report import report
@@ -65,6 +66,8 @@ def show(chosen: argparse.Namespace, demo: Demo) -> None:
     out, name = chosen.output, demo.name
     tracks, picture, recording = out / f'{name}_tracks', out / f'{name}.png', chosen.recording
     page = out / f'{name}.html'
+    if out.exists() and not out.is_dir():
+        raise FileExistsError(f'{out} is in the way, and is no folder')
     out.mkdir(parents=True, exist_ok=True)
     _remove_bag(tracks)
     if recording is None:
@@ -109,7 +112,7 @@ def _parser(demo: Demo) -> argparse.ArgumentParser:
     add('--output', type=Path, default=Path('output'), metavar='DIR', help='default: output')
     add(
         '--rate',
-        type=_positive,
+        type=positive,
         default=demo.rate,
         help=f'times real time (default {demo.rate:g})',
     )
@@ -117,13 +120,6 @@ def _parser(demo: Demo) -> argparse.ArgumentParser:
     add('--recording', type=Path, default=demo.recording, metavar='BAG', help='another scene')
     add('--params', type=Path, default=demo.parameters, metavar='FILE', help='parameters for it')
     return parser
-
-
-def _positive(text: str) -> float:
-    number = float(text)
-    if not number > 0.0:
-        raise argparse.ArgumentTypeError(f'must be above 0, got {text}')
-    return number
 
 
 def _finish_radar(

@@ -26,7 +26,7 @@ class Hold:
     """How one contact was held."""
 
     contact: int
-    duration: float  # that it was in sight [s]
+    duration: float  # that it was in sight, pauses aside [s]
     share: float  # of its scans after `START` with a confirmed track on it; evaluate counts all
     tracks: Ints  # (K,) ids in order of appearance
     switches: int  # changes of the track while the contact was in sight
@@ -58,12 +58,12 @@ def _hold(contact: int, truth: Columns, stamps: Floats, matches: Matches) -> Hol
     mine = take(matches, matches.contact == contact)
     scans = np.searchsorted(stamps, path['stamp'])[START:]
     changed = np.flatnonzero(np.diff(mine.track)) + 1
-    back, time = _returns(path['time']), stamps[mine.scan]
     # Back in sight between the last scan of one track and the first of the next?
-    lost = np.searchsorted(back, time[changed]) > np.searchsorted(back, time[changed - 1])
+    absences = np.searchsorted(_returns(path['time']), stamps[mine.scan], side='right')
+    lost = absences[changed] > absences[changed - 1]
     return Hold(
         contact=int(contact),
-        duration=float(np.ptp(path['time'])),
+        duration=float(np.ptp(path['time']) - _gaps(path['time']).sum()),
         share=float(np.isin(scans, mine.scan).mean()) if len(scans) else 0.0,
         tracks=mine.track[np.concatenate([[0], changed])] if len(mine) else mine.track,
         switches=int(np.sum(~lost)),
@@ -74,5 +74,10 @@ def _hold(contact: int, truth: Columns, stamps: Floats, matches: Matches) -> Hol
 
 def _returns(time: Floats) -> Floats:
     """Return when a contact that was seen at these times (M,) came back into sight."""
-    gaps = np.diff(time, prepend=time[0])
-    return time[gaps > OUT_OF_SIGHT * np.median(gaps)]
+    return time[_gaps(time) > 0.0]
+
+
+def _gaps(time: Floats) -> Floats:
+    """Return how long it had been out of sight at each of these times (M,), 0: not at all [s]."""
+    steps = np.diff(time, prepend=time[0])
+    return np.where(steps > OUT_OF_SIGHT * np.median(steps), steps, 0.0)

@@ -126,12 +126,19 @@ def test_demo_is_called_what_it_is(demo, capsys):
     assert capsys.readouterr().out.startswith(f'usage: {demo.name} ')
 
 
-@pytest.mark.parametrize('rate', ['0', '-1', 'nan', 'fast'])
+@pytest.mark.parametrize('rate', ['0', '-1', 'nan', 'inf', 'fast'])
 def test_demo_refuses_bad_rates(rate, capsys):
     """A rate is above zero."""
     with pytest.raises(SystemExit):
         main(['--rate', rate])
-    assert '--rate' in capsys.readouterr().err
+    assert f'--rate: must be a number above 0, got {rate}' in capsys.readouterr().err
+
+
+def test_demo_says_that_its_folder_is_a_file(tmp_path, capsys):
+    """In words, not as an errno."""
+    (tmp_path / 'notes').write_text('years of work')
+    assert main(['--no-live', '--output', str(tmp_path / 'notes')]) == 1
+    assert 'notes is in the way, and is no folder' in capsys.readouterr().err
 
 
 @pytest.mark.slow

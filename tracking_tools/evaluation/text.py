@@ -79,7 +79,11 @@ def _held_rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
     changes = f'{held.lasting_switches} lasting; {held.new_ids_after_absence} after an absence'
     yield 'id switches', str(held.id_switches), changes
     yield 'purity', percent(held.purity, 2), ''
-    yield 'relative tracking time', _number(held.relative_tracking_time), 'one break halves it'
+    yield (
+        'relative tracking time',
+        _number(held.relative_tracking_time),
+        'one break or absence halves it',
+    )
     yield 'false tracks', str(held.false_tracks), f'{held.false_tracks_per_hour:.1f} an hour'
     late, latest = timing.time_to_confirm_median, timing.time_to_confirm_max
     never = f'; {timing.never_confirmed} contacts never' if timing.never_confirmed else ''
