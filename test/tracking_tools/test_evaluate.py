@@ -220,3 +220,18 @@ def test_evaluate_without_a_bag_says_so(
     """A path that leads nowhere is named."""
     assert main([str(tmp_path / 'nothing')]) == 1
     assert 'no bag at' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(('apart', 'is_doubtful'), [(9_000.0, False), (50.0, True)])
+def test_evaluate_says_when_the_match_radius_tells_nothing(
+    make_bag: MakeBag, capsys: pytest.CaptureFixture[str], apart: float, is_doubtful: bool
+) -> None:
+    """Among boats in a harbour any track is within 1000 m of any boat."""
+    places = {1: (0.0, 0.0), 2: (0.0, apart)}
+    few = range(3)  # 800 m
+    tracks = make_bag('tracks', {RADAR: {k: tracks_at(k, places) for k in few}})
+    truth = make_bag('truth', {'/truth': {k: truth_at(k, places) for k in few}})
+    assert main([str(tracks), '--truth', str(truth)]) == 0
+    assert ('set --radius' in capsys.readouterr().out) == is_doubtful
+    assert main([str(tracks), '--truth', str(truth), '--radius', '20']) == 0
+    assert 'set --radius' not in capsys.readouterr().out

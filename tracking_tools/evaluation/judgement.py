@@ -136,6 +136,7 @@ class Judgement:
     contacts: int
     tracks: int  # confirmed
     radius: float  # a track farther off is not the contact's
+    extent: float  # of the space in which contacts were
     dimensions: int  # that are compared; 2 also where the truth of 3-D tracks has no heights
     held: Held
     timing: Timing

@@ -17,6 +17,7 @@ from tracking_tools.evaluation.units import in_words, percent, Unit, UNITS
 from tracking_tools.scoring.consistency import Consistency
 
 MINUTE = 60.0
+LARGEST = 0.2  # part of where contacts were that a match radius may be
 
 
 def to_json(judgement: Judgement) -> str:
@@ -43,6 +44,7 @@ def to_text(judgement: Judgement) -> str:
         f'{judgement.contacts} contacts, {judgement.tracks} confirmed tracks; '
         f'matched within {unit.far(judgement.radius)}'
         + (' over the ground' if judgement.dimensions == 2 else ''),
+        *_doubt(judgement, unit),
         '',
         *(f'{name:<24}{value:>14}  {remark}'.rstrip() for name, value, remark in rows(judgement)),
         '',
@@ -53,6 +55,15 @@ def to_text(judgement: Judgement) -> str:
     if false:
         lines.append(f'false tracks: {", ".join(map(str, false))}')
     return '\n'.join(lines)
+
+
+def _doubt(judgement: Judgement, unit: Unit) -> Iterator[str]:
+    """Yield a word on a match radius that takes any track for any contact."""
+    if judgement.contacts > 1 and judgement.radius > LARGEST * judgement.extent:
+        yield (
+            f'all contacts were within {unit.far(judgement.extent)}, so the match radius tells '
+            'little: set --radius'
+        )
 
 
 def rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
