@@ -16,6 +16,9 @@ class ConstantVelocity:
     """
     State (position, velocity) on each axis; piecewise constant white acceleration.
 
+    A piece is the time between two looks, whatever it is. So one step of 2 T is noisier than two
+    of T: a message that was lost leaves a wider gate than one that was empty.
+
     References
     ----------
     [ZHUK09] eq. 1 to 3: F = [1 T; 0 1], G = (T^2/2, T) times the acceleration.
