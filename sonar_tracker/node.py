@@ -8,7 +8,7 @@ Subscribes to `bearings` (PointCloud2), `ownship` (Odometry), `acquire` (PointSt
 known), `~/markers` (MarkerArray), `~/radar_tracks` (RadarTracks, if asked for) and `/diagnostics`;
 serves `~/reset` (Trigger).
 
-    sonar_tracker --ros-args -r bearings:=/array/marks --params-file config/passive_linear_array.yaml
+    sonar_tracker --ros-args -r bearings:=/my_array/marks --params-file config/sonar.yaml
 """
 
 from __future__ import annotations

@@ -20,6 +20,7 @@ import sys
 USAGE = """usage: {} [--help] [--ros-args [-r FROM:=TO] [-p NAME:=VALUE] [--params-file FILE] ...]
 
 {}
+
 docs/parameters.md explains every parameter; config/ has files to begin with."""
 LONGEST_END = 10  # from the return of `main` until the process is ended [s]
 
