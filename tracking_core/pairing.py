@@ -44,9 +44,7 @@ class Gated:
     innovations: tuple[Innovations, ...]  # one per plane
     distance: Floats  # (P,) least Mahalanobis distance squared of any mode
     log_likelihood: Floats  # (P,) product over planes of the mode mixtures
-    common: (
-        Ints  # (P,) row of the common plot that it is a part of, -1: the plot is the track's own
-    )
+    common: Ints  # (P,) row of the common plot that it is a part of, -1: the track's own plot
 
 
 @lru_cache(maxsize=64)

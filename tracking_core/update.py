@@ -8,14 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracking_core.association import clusters
-from tracking_core.batches import (
-    Bools,
-    Floats,
-    Ints,
-    Scan,
-    Tracks,
-)  # fmt: skip
+from tracking_core.association.clusters import clusters
+from tracking_core.batches import Bools, Floats, Ints, Scan, Tracks
 from tracking_core.chances import TINY
 from tracking_core.composition import Density, Setup
 from tracking_core.lifecycle import count_looks, has_left

@@ -11,15 +11,8 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from tracking_core.association import (
-    Associator,
-    ASSOCIATORS,
-    clusters,
-    events,
-    jpda,
-    nearest,
-    pda,
-)
+from tracking_core.association import Associator, ASSOCIATORS, events, jpda, nearest, pda
+from tracking_core.association.clusters import clusters
 from tracking_core.batches import Floats, Ints
 
 Scene = tuple[Ints, Ints, Floats, Floats, int]

@@ -10,16 +10,14 @@ import pytest
 from scipy.linalg import expm
 
 from tracking_core.mode_chain import ModeChain
-from tracking_core.motion import ConstantVelocity, CoordinatedTurn, MOTION, Motion, RandomWalk
+from tracking_core.motion import ConstantVelocity, CoordinatedTurn, Motion, RandomWalk
 
-EXAMPLES = {
-    'constant_velocity': [ConstantVelocity(2.0), ConstantVelocity(0.5, axes=1)],
-    'coordinated_turn': [CoordinatedTurn(0.05, 2.0), CoordinatedTurn(-0.3, 1.0)],
-    'random_walk': [RandomWalk(1e-3, 1e-4)],
-}
-every_motion = pytest.mark.parametrize(
-    'motion', [m for name in MOTION for m in EXAMPLES[name]], ids=repr
-)
+EXAMPLES = [
+    ConstantVelocity(2.0), ConstantVelocity(0.5, axes=1),
+    CoordinatedTurn(0.05, 2.0), CoordinatedTurn(-0.3, 1.0),
+    RandomWalk(1e-3, 1e-4),
+]  # fmt: skip
+every_motion = pytest.mark.parametrize('motion', EXAMPLES, ids=repr)
 DT = np.array([0.0, 0.1, 1.0, 7.3, 20.0])
 CHAINS = [ModeChain((10.0,)), ModeChain((60.0, 20.0)), ModeChain((60.0, 20.0, 5.0, 300.0))]
 every_chain = pytest.mark.parametrize('chain', CHAINS, ids=lambda chain: str(chain.modes))

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from tracking_core.association.clusters import clusters
 from tracking_core.association.global_nearest import global_nearest
 from tracking_core.association.jpda import jpda
 from tracking_core.association.jpda_star import jpda_star
@@ -21,17 +20,9 @@ from tracking_core.association.pda import pda
 from tracking_core.batches import Association, Floats, Ints
 
 __all__ = [
-    'ASSOCIATORS',
-    'DECIDING',
-    'JOINT',
-    'Associator',
-    'clusters',
-    'global_nearest',
-    'jpda',
-    'jpda_star',
-    'nearest',
-    'pda',
-]
+    'ASSOCIATORS', 'DECIDING', 'JOINT', 'Associator', 'global_nearest', 'jpda', 'jpda_star',
+    'nearest', 'pda',
+]  # fmt: skip
 
 
 class Associator(Protocol):

@@ -131,7 +131,8 @@ def _copy(label: Ints, partitions: Partitions) -> _Copies:
     first = np.flatnonzero(np.diff(label[order], prepend=-1))
     stride = np.empty(len(sizes))
     stride[order] = np.exp(before - before[first][label[order]])
-    count = np.rint(np.exp(np.bincount(label, np.log(sizes)))).astype(np.int64)
+    count = np.ones(label.max(initial=-1) + 1, np.int64)
+    np.multiply.at(count, label, sizes)
     base = np.cumsum(count) - count
 
     group = np.repeat(np.arange(len(sizes)), count[label])

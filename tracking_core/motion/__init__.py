@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How does a contact move between two looks? One file per linear model, one menu."""
+"""How does a contact move between two looks? One file per linear model."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tracking_core.motion.constant_velocity import ConstantVelocity
 from tracking_core.motion.coordinated_turn import CoordinatedTurn
 from tracking_core.motion.random_walk import RandomWalk
 
-__all__ = ['MOTION', 'ConstantVelocity', 'CoordinatedTurn', 'Motion', 'RandomWalk']
+__all__ = ['ConstantVelocity', 'CoordinatedTurn', 'Motion', 'RandomWalk']
 
 
 class Motion(Protocol):
@@ -29,10 +29,3 @@ class Motion(Protocol):
     def process_noise(self, dt: Floats) -> Floats:
         """Return Q (T, n, n) over the times dt (T,) [s]."""
         ...
-
-
-MOTION = {
-    'constant_velocity': ConstantVelocity,
-    'coordinated_turn': CoordinatedTurn,
-    'random_walk': RandomWalk,
-}
