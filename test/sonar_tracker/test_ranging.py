@@ -104,6 +104,22 @@ def test_even_own_ship_tells_nothing(speed: float) -> None:
     assert np.isnan(found.covariance).all()
 
 
+@pytest.mark.parametrize(
+    ('limit', 'factor', 'is_told'),
+    [
+        ('range_max', 1.002, True), ('range_max', 0.998, False),
+        ('range_min', 0.998, True), ('range_min', 1.002, False),
+    ],
+)  # fmt: skip
+def test_contact_a_little_outside_the_limits_is_not_at_the_limit(limit, factor, is_told) -> None:
+    """The fit stops there, nearly as good as where it would go; nothing is told of it."""
+    own, line = v0()
+    _, free = followed(own, line, every=1000)
+    config = RangingConfig(**{limit: factor * float(free.range[0])})
+    _, found = followed(own, line, every=1000, config=config)
+    assert found.observable[0] == is_told
+
+
 def test_jitter_of_own_ship_is_no_manoeuvre() -> None:
     """Five metres of noise in own ship's position make no range."""
     own, line = v0(Case(turn=0.0))

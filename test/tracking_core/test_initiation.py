@@ -16,7 +16,7 @@ from tracking_core.birth import with_speed_prior
 from tracking_core.composition import Density
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
 from tracking_core.lifecycle_config import InitiationConfig
-from tracking_core.new_contacts import Odds, share_of_new
+from tracking_core.new_contacts import Odds, share_of_new, velocity_covariance
 
 INTERVAL = 4.0
 STARING = Coverage(INTERVAL, INTERVAL)
@@ -186,3 +186,17 @@ def test_with_speed_prior_equals_a_measurement_of_no_speed() -> None:
     assert_allclose(tamed.mean[0].reshape(4), x - K @ H @ x, rtol=1e-9)
     assert_allclose(tamed.covariance[0].reshape(4, 4), P - K @ H @ P, rtol=1e-9, atol=1e-9)
     assert with_speed_prior(starts, 0.0) is starts
+
+
+@pytest.mark.parametrize(('d', 'speed_sd'), [(1, 0.0), (2, 0.0), (3, 0.0), (2, 50.0), (3, 500.0)])
+def test_velocities_are_spread_evenly_within_the_limits(d: int, speed_sd: float) -> None:
+    """On a line of rates, on a disc of speeds, between the climb limits; a smaller sd counts."""
+    config = InitiationConfig(speed_max=300.0, climb_max=20.0, speed_sd=speed_sd)
+    rng = np.random.default_rng(1)
+    velocity = rng.uniform(-1.0, 1.0, (200_000, d)) * ([300.0, 300.0, 20.0][:d])
+    if d > 1:
+        velocity = velocity[np.hypot(velocity[:, 0], velocity[:, 1]) < 300.0]
+    expected = np.cov(velocity.T).reshape(d, d).diagonal().copy()
+    if speed_sd == 50.0:
+        expected[:2] = speed_sd**2
+    assert_allclose(velocity_covariance(d, config), np.diag(expected), rtol=0.01, atol=1e-9)
