@@ -139,6 +139,16 @@ def test_two_point_starts_faint_tracks_in_clutter_but_not_too_many() -> None:
     assert len(none.plot) == 0
     assert none.leniency == 1.0
     assert len(start(seeds, fresh, Density(1e-12, 1e-11), least=0.01).plot) == 400
+    fifth = Coverage(INTERVAL - 0.8, INTERVAL, 0.0, 0.4 * np.pi)
+    sector = two_point(seeds, fresh, density, fifth, INTERVAL, 0.9, 0.01, LIMITS)
+    assert_array_equal(np.sort(sector.plot), np.arange(6))  # of the fifth of a turn
+
+
+def test_two_point_keeps_the_climb_limit_at_each_plot_s_own_time() -> None:
+    """65 m higher is too much after 2.5 s, and not after 4 s, at 20 m/s."""
+    seeds = plots(0.0, [[0.0, 0.0, 0.0], [5e3, 0.0, 0.0]], variance=1.0)
+    fresh = plots([2.5, 4.0], [[0.0, 0.0, 65.0], [5e3, 0.0, 65.0]], variance=1.0)
+    assert_array_equal(start(seeds, fresh).plot, [1])
 
 
 def test_two_point_takes_nothing() -> None:
