@@ -20,39 +20,40 @@ def keep_ids(before: State, after: State, first: int, space: Space = POINTS) -> 
     """
     Give tracks the ids that they had before; new ones get ids that nobody ever had.
 
+    Tracks whose id is in both states are the same. The others are compared.
+
     Parameters
     ----------
     before : State
         What was known when the ids were told.
     after : State
-        The same scans followed again, from a state in which `first` was the next id.
+        The same scans followed again, from a state whose next id nobody ever had.
     first : int
-        Tracks with lower ids began earlier, and are the same in both.
+        Lowest id of the last scan of `after`: new ones are counted from it, without gaps.
     space : Space
         Where the tracks are.
 
     Returns
     -------
     State
-        `after` with other ids from `first` on; its next id is not below that of `before`.
+        `after` with the ids of `before`.
 
     """
-    old = np.flatnonzero(before.tracks.id >= first)
-    new = np.flatnonzero(after.tracks.id >= first)
+    ids = after.tracks.id.copy()
+    old = np.flatnonzero(~np.isin(before.tracks.id, ids))
+    new = np.flatnonzero(~np.isin(ids, before.tracks.id))
     apart = _difference(before.tracks, old, after.tracks, new, space)
     difference = np.minimum(apart, _SAME)
     one, other = linear_sum_assignment(difference)
     same = difference[one, other] < _SAME
-    fresh = np.ones(len(new), bool)
-    fresh[other[same]] = False
-    ids = after.tracks.id.copy()
     ids[new[other[same]]] = before.tracks.id[old[one[same]]]
-    ids[new[fresh]] = before.next_id + np.arange(fresh.sum())
+    fresh = ids >= first
+    ids[fresh] = first + np.arange(fresh.sum())
     tracks = replace(after.tracks, id=ids)
     return replace(
         after,
         tracks=take(tracks, np.argsort(ids, kind='stable')),
-        next_id=before.next_id + int(fresh.sum()),
+        next_id=first + int(fresh.sum()),
     )
 
 

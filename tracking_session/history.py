@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from tracking_core.batches import State
 from tracking_core.platform import Platform
 
 MOST = 64  # messages, however small the sectors are: each keeps the tracks of its time alive
@@ -22,6 +23,7 @@ class Step:
     memory: Any  # of the tracker, before the message
     plots: Any
     platform: Platform | None
+    known: State | None  # of the tracks, after the message
 
 
 class History:

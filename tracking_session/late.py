@@ -10,10 +10,11 @@ late plots, uses them, and follows the messages after them once more.
 from __future__ import annotations
 
 from copy import copy
+from dataclasses import replace
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage
-from tracking_core.batches import Tracks
+from tracking_core.batches import State, Tracks
 from tracking_core.identity import keep_ids
 from tracking_core.platform import Platform, StalePlatform
 from tracking_session.frames import TrackingFrame
@@ -37,12 +38,26 @@ class Follower:
     def __init__(self, instrument: Instrument, history: History) -> None:
         self._instrument, self.history = instrument, history
 
-    def step(self, plots: Any, platform: Platform | None, frame: TrackingFrame) -> Tracks:
-        """Follow all contacts through one message, and remember how to do so once more."""
+    def step(
+        self,
+        plots: Any,
+        platform: Platform | None,
+        frame: TrackingFrame,
+        known: State | None = None,
+    ) -> Tracks:
+        """
+        Follow all contacts through one message, and remember how to do so once more.
+
+        `known` is what was known after it, if it is followed once more: tracks keep their ids.
+        """
         tracker = self._instrument.tracker
-        step = Step(plots.stamp, tracker.save(), plots, platform)
+        memory, first = tracker.save(), tracker.state.next_id
         tracks = self._instrument.track(plots, platform, frame)
-        self.history.add(step, tracker.turn_time)
+        if known is not None:
+            tracker.state = keep_ids(known, tracker.state, first, tracker.space)
+        self.history.add(
+            Step(plots.stamp, memory, plots, platform, tracker.state), tracker.turn_time
+        )
         return tracks
 
     def insert(self, plots: Any, platform: Platform | None, frame: TrackingFrame) -> None:
@@ -56,16 +71,15 @@ class Follower:
 
         """
         tracker = self._instrument.tracker
-        before, now, history = tracker.state, tracker.save(), copy(self.history)
+        next_id, now, history = tracker.state.next_id, tracker.save(), copy(self.history)
         later = self.history.take_after(plots.stamp)
         tracker.restore(later[0].memory)
-        first = tracker.state.next_id
+        tracker.state = replace(tracker.state, next_id=next_id)  # nobody ever had those
         try:
             self.step(plots, platform, frame)
             for step in later:
-                self.step(step.plots, step.platform, frame)
+                self.step(step.plots, step.platform, frame, step.known)
         except (BadMessage, StalePlatform):
             tracker.restore(now)
             self.history = history
             raise
-        tracker.state = keep_ids(before, tracker.state, first, tracker.space)

@@ -95,6 +95,29 @@ def test_ids_that_were_published_stay() -> None:
     assert session.instrument.tracker.state.next_id > max(born)
 
 
+@pytest.mark.parametrize('seed', range(5))
+def test_ids_stay_when_a_second_message_is_late(seed) -> None:
+    """Contacts tens of kilometres apart, seen four times in five: an id never names another."""
+    rng = np.random.default_rng(seed)
+    place = 30e3 * np.stack(np.meshgrid(range(4), range(3)), axis=-1).reshape(-1, 2)
+    speed = rng.uniform(-150.0, 150.0, place.shape)
+
+    def turn(k):
+        at = (place + PERIOD * k * speed + rng.normal(0.0, 30.0, place.shape))[
+            rng.random(12) < 0.8
+        ]
+        return from_columns({'x': at[:, 0], 'y': at[:, 1]}, 1_000.0 + PERIOD * k, 'radar', TYPES)
+
+    messages, session, owner = [turn(k) for k in range(12)], radar(), {}
+    for table in run(session, [messages[k] for k in (0, 1, 4, 2, 3, *range(5, 12))]):
+        at = np.stack([table['x'], table['y']], axis=1)
+        nearest = np.hypot(*(at[:, None] - place).T).argmin(axis=0)
+        for number, contact in zip(table['id'], nearest, strict=True):
+            assert owner.setdefault(number, contact) == contact
+    assert session.counts['plots'].late_used == 2
+    assert (table['status'] == 1).sum() == 12
+
+
 def test_stamps_of_the_tables_rise() -> None:
     """A late message is not answered; the next table shows what it changed."""
     messages = scans(1, 12)

@@ -11,7 +11,7 @@ def filled(stamps, scans=3, turn=0.0, margin=10.0):
     """Return a history of messages with these stamps."""
     history = History(scans, margin)
     for stamp in stamps:
-        history.add(Step(stamp, None, None, None), turn)
+        history.add(Step(stamp, None, None, None, None), turn)
     return history
 
 
@@ -59,6 +59,6 @@ def test_nothing_comes_before_what_was_closed():
     """A user's command is not undone."""
     history = filled([0.0, 4.0])
     history.close()
-    history.add(Step(8.0, None, None, None), 0.0)
+    history.add(Step(8.0, None, None, None, None), 0.0)
     assert history.takes(6.0)
     assert not history.takes(3.0)
