@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from tracking_core.batches import Floats
+from tracking_core.batches import Floats, Ints
 
 _RATE_SPAN = 0.5  # s, between the samples that a rate is taken from
 _SHORTEST = 1e-6  # s, between two samples
@@ -79,16 +79,22 @@ class Platform:
     def __len__(self) -> int:
         return len(self.time)
 
-    def add(self, *samples: Platform) -> Platform:
+    def add(self, *samples: Platform, span: float = 0.0) -> Platform:
         """
         Return the platform with these samples, the oldest dropped beyond the capacity.
 
-        Samples may come late; of two at one time the later of the arguments wins.
+        Samples may come late; of two at one time the later of the arguments wins. Those of the
+        last `span` [s] are kept, however many they are.
         """
-        parts = (*reversed(samples), self)
+        parts = (self, *samples)
         joined = {name: np.concatenate([getattr(p, name) for p in parts]) for name in _ARRAYS}
-        _, first = np.unique(joined['time'], return_index=True)
-        kept = {name: values[first[-self.capacity :]] for name, values in joined.items()}
+        if not (np.diff(joined['time']) > 0.0).all():
+            order = _in_order(joined['time'])
+            joined = {name: values[order] for name, values in joined.items()}
+        time = joined['time']
+        recent = len(time) - np.searchsorted(time, time[-1:] - span)
+        most = max(self.capacity, *recent.tolist())
+        kept = {name: values[-most:] for name, values in joined.items()}
         return Platform(**kept, max_extrapolation=self.max_extrapolation, capacity=self.capacity)
 
     def at(self, times: Floats) -> PlatformPose:
@@ -180,6 +186,12 @@ def pose_at(platform: Platform | None, times: Floats) -> PlatformPose:
 _ARRAYS = tuple(
     f.name for f in fields(Platform) if f.name not in ('max_extrapolation', 'capacity')
 )
+
+
+def _in_order(time: Floats) -> Ints:
+    """Return the rows in order of time, of two at one time the later row."""
+    _, last = np.unique(time[::-1], return_index=True)
+    return np.asarray(len(time) - 1 - last)
 
 
 def _between(values: Floats, before: Any, after: Any, share: Floats) -> Floats:

@@ -13,6 +13,9 @@ from tracking_session.leap_guard import LeapGuard
 from tracking_session.node_config import NodeConfig
 from tracking_session.stamp_guard import StampGuard
 
+KEPT = 60.0  # s of own ship's path, at any rate: a slow antenna's turn and some late ones
+NEAREST = 0.007  # s between two samples that are kept; odometry up to 125 Hz is kept whole
+
 
 class NotYet(Exception):  # noqa: N818 (a state rather than an error)
     """Where the sensor was at the time of these plots is not known yet; says what is missing."""
@@ -70,7 +73,8 @@ class Whereabouts:
         has_leapt = self._leaps.accept(sample)
         if has_jumped or has_leapt:
             self.platform = Platform.empty(self._config.ownship_timeout)
-        self.platform = self.platform.add(sample)
+        if not (sample.time - self.platform.time[-1:] < NEAREST).any():
+            self.platform = self.platform.add(sample, span=KEPT)
         return has_leapt
 
     def covering(self, times: Floats, frame: TrackingFrame) -> Platform | None:

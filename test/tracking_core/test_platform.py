@@ -95,6 +95,15 @@ def test_samples_are_kept_in_order_and_bounded():
     assert platform.position[0, 0] == 7.0
 
 
+def test_samples_of_the_span_are_kept_beyond_the_capacity():
+    """Those of the last seconds, however many; older ones as far as there is room."""
+    platform = Platform.empty(capacity=3)
+    for time in (1.0, 7.0, 8.0, 9.0, 10.0):
+        platform = platform.add(sample(time), span=3.0)
+    np.testing.assert_array_equal(platform.time, [7.0, 8.0, 9.0, 10.0])
+    np.testing.assert_array_equal(platform.add(sample(20.0), span=3.0).time, [9.0, 10.0, 20.0])
+
+
 def test_many_samples_at_once_are_as_one_by_one():
     """Late ones and two at one time included: the one that came later wins."""
     times = (3.0, 1.0, 2.0, 2.0, 4.0, 1.0)
