@@ -9,7 +9,7 @@ orientations turn evenly, beyond the last one they go on for a bounded time.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -96,6 +96,12 @@ class Platform:
         most = max(self.capacity, *recent.tolist())
         kept = {name: values[-most:] for name, values in joined.items()}
         return Platform(**kept, max_extrapolation=self.max_extrapolation, capacity=self.capacity)
+
+    def since(self, time: float) -> Platform:
+        """Return a copy of the samples from the last one before this time [s] on."""
+        first = max(int(np.searchsorted(self.time, time)) - 1, 0)
+        kept = {name: getattr(self, name)[first:].copy() for name in _ARRAYS}
+        return replace(self, **kept)
 
     def at(self, times: Floats) -> PlatformPose:
         """

@@ -30,7 +30,8 @@ class LateConfig:
 
     late: int = parameter(
         3, unit='scans', low=0, high=20,
-        doc='messages up to so many scans late are used at their own time; 0: none is',
+        doc='messages up to so many scans late are used at their own time, as far as the last 512 '
+        'messages go (64 with thousands of tracks); 0: none is',
     )  # fmt: skip
 
     def __post_init__(self) -> None:

@@ -142,8 +142,14 @@ class Session:
         try:
             return self.guard.accept(stamp, received)
         except BadMessage:
-            late = self._follower.history.has_lost(stamp)
-            self.counts[self.instrument.topic].late_dropped += late
+            history, topic = self._follower.history, self.instrument.topic
+            self.counts[topic].late_dropped += history.has_lost(stamp)
+            if history.lacks_room(stamp):
+                self.ledger.warn(
+                    'no room',
+                    f'{topic} within scan.late are dropped: no more messages are kept than those '
+                    f'of the last {history.span:.1f} s',
+                )
             raise
 
     def _start_anew(self, why: str) -> None:

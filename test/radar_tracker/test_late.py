@@ -144,6 +144,19 @@ def test_older_ones_and_copies_are_dropped_and_counted() -> None:
     assert (strict.counts['plots'].late_used, strict.counts['plots'].late_dropped) == (0, 3)
 
 
+@pytest.mark.parametrize('used', [True, False])
+def test_narrow_sectors_too_may_be_three_scans_late(used, monkeypatch, caplog) -> None:
+    """48 a turn, one 2.9 scans late; where there is no room for so many the log says so."""
+    if not used:
+        monkeypatch.setattr('tracking_session.history.MOST', 64)
+    messages = scans(48, 6)
+    session, late = radar(**{'scan.assembly': 'sector'}), messages.pop(-140)
+    run(session, [*messages, late])
+    count = session.counts['plots']
+    assert (count.late_used, count.late_dropped) == (used, not used)
+    assert ('scan.late are dropped: no more messages are kept than' in caplog.text) is not used
+
+
 def test_recording_that_begins_anew_still_starts_anew() -> None:
     """A jump back beyond the last scans is a jump of the clock, not a crowd of late messages."""
     messages, session = scans(1, 30), radar()

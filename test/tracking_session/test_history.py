@@ -2,16 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which late messages have a place, and how many messages are kept."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
-from tracking_session.history import History, MOST, Step
+from tracking_core.platform import Platform
+from tracking_session.history import FEWEST, History, MOST, Step
 
 
-def filled(stamps, scans=3, turn=0.0, margin=10.0):
+def step(stamp, tracks=10, platform=None):
+    """Return a message of this stamp, after which there were so many tracks."""
+    return Step(stamp, None, None, platform, SimpleNamespace(tracks=range(tracks)))
+
+
+def filled(stamps, scans=3, turn=0.0, margin=10.0, tracks=10):
     """Return a history of messages with these stamps."""
     history = History(scans, margin)
     for stamp in stamps:
-        history.add(Step(stamp, None, None, None, None), turn)
+        history.add(step(stamp, tracks), turn)
     return history
 
 
@@ -39,10 +48,37 @@ def test_sectors_are_kept_for_three_turns():
     assert not history.takes(49.5 - 12.0 - 0.6)
 
 
-def test_memory_is_bounded():
-    """However small the sectors are."""
-    history = filled([1e-3 * k for k in range(1000)], turn=4.0)
-    assert len(history.take_after(-1.0)) == MOST
+@pytest.mark.parametrize(('sectors', 'tracks'), [(128, 300), (64, 900), (20, 100_000)])
+def test_narrow_sectors_have_a_place_for_three_turns(sectors, tracks):
+    """As far as the number of tracks allows."""
+    history = filled([4.0 * k / sectors for k in range(5 * sectors)], turn=4.0, tracks=tracks)
+    assert history.takes(20.0 - 12.0 + 0.01)
+    assert not history.lacks_room(1.0)
+
+
+@pytest.mark.parametrize(('tracks', 'most'), [(10, MOST), (1000, 199), (100_000, FEWEST)])
+def test_memory_is_bounded(tracks, most):
+    """However small the sectors are, and the fewer the more tracks; who comes later is told so."""
+    history = filled([1e-3 * k for k in range(1000)], turn=4.0, tracks=tracks)
+    assert history.span == pytest.approx(1e-3 * most)
+    assert history.lacks_room(0.9995 - 1e-3 * most - 0.001)
+    assert not history.lacks_room(0.9995)
+    assert not history.lacks_room(-12.0)
+    assert len(history.take_after(-1.0)) == most
+
+
+def test_steps_keep_as_much_of_the_path_as_a_turn_needs():
+    """Not a minute of own ship's odometry for each of hundreds of sectors."""
+    time = np.arange(0.0, 60.0, 0.01)
+    zero, covariance = np.zeros((len(time), 3)), np.zeros((len(time), 3, 3))
+    turn = np.tile([0.0, 0.0, 0.0, 1.0], (len(time), 1))
+    path = Platform(time, zero, turn, zero, covariance, 0.0 * time)
+    history = History(3, 10.0)
+    history.add(step(59.0, platform=path), 4.0)
+    kept = history.take_after(0.0)[0].platform
+    assert kept.time[0] == pytest.approx(51.0, abs=0.02)
+    assert kept.time[-1] == time[-1]
+    assert all(values.base is None for values in vars(kept).values() if np.ndim(values))
 
 
 @pytest.mark.parametrize('scans', [0, 1, 5])
@@ -59,6 +95,6 @@ def test_nothing_comes_before_what_was_closed():
     """A user's command is not undone."""
     history = filled([0.0, 4.0])
     history.close()
-    history.add(Step(8.0, None, None, None, None), 0.0)
+    history.add(step(8.0), 0.0)
     assert history.takes(6.0)
     assert not history.takes(3.0)
