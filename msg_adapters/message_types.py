@@ -96,6 +96,16 @@ def stamp_of(msg: Any) -> float:
     return seconds(stamp)
 
 
+def frame_of(msg: Any) -> str:
+    """Return the frame that a message is told in."""
+    return frame_name(msg.header.frame_id)
+
+
+def frame_name(text: str) -> str:
+    """Return a frame's name as ROS 2 and tf2 have it: /map, as ROS 1 wrote it, is map."""
+    return text.lstrip('/')
+
+
 @cache
 def rclpy_types() -> MessageTypes:
     """Return the message classes that rclpy publishes."""

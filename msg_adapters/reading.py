@@ -14,7 +14,7 @@ from msg_adapters.angles import in_radians
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import find_fields, Names
 from msg_adapters.kinds.menu import columns_of, tells_unit
-from msg_adapters.message_types import NANOSECONDS, stamp_of
+from msg_adapters.message_types import frame_of, NANOSECONDS, stamp_of
 from msg_adapters.row_checks import NO_NUMBER, OUT_OF_RANGE
 from msg_adapters.table import Columns
 from tracking_core.batches import Bearings, Bools, Floats, Plots
@@ -76,7 +76,7 @@ def read_fields(
     stamp = stamp_of(msg)
     rows = len(next(iter(columns.values()))) if columns else msg.width * msg.height
     offset = _offset(values, columns, mapping, stamp, rows)
-    return Fields(columns, mapping, values, stamp, stamp + offset, msg.header.frame_id.lstrip('/'))
+    return Fields(columns, mapping, values, stamp, stamp + offset, frame_of(msg))
 
 
 def _numbers(columns: Columns, name: str) -> Floats:

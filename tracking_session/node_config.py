@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from msg_adapters.kinds.menu import check_type, POINT_CLOUD, TYPES
+from msg_adapters.message_types import frame_name
 from msg_adapters.radar_tracks import NAME as RADAR_TRACKS
 from tracking_core.config import parameter, validate
 
@@ -106,7 +107,7 @@ class NodeConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
-        if self.use_tf and not self.tracking_frame:
+        if self.use_tf and not frame_name(self.tracking_frame):
             raise ValueError(
                 'NodeConfig.use_tf needs a tracking_frame: name the frame in which to track'
             )

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage
+from msg_adapters.message_types import frame_of
 from msg_adapters.points import to_position
 from tracking_session.session import Session
 
@@ -18,7 +19,7 @@ def acquire(session: Session, msg: Any) -> None:
     try:
         if session.stamp is None or not tracker.is_ready:
             raise BadMessage('no scan yet', f'no {instrument.topic} have come yet')
-        session.frame.check_point(msg.header.frame_id.lstrip('/'))
+        session.frame.check_point(frame_of(msg))
         position = to_position(msg, tracker.sensor_position, instrument.reach)
         if len(session.tracks) >= (most := tracker.config.max_tracks):
             raise BadMessage('no room', f'there are {most} tracks already (max_tracks)')

@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage
-from msg_adapters.message_types import MessageTypes, seconds
+from msg_adapters.message_types import frame_name, frame_of, MessageTypes, seconds
 from msg_adapters.ownship import to_platform
 from msg_adapters.reading import Reading
 from tracking_core.batches import Floats, Tracks
@@ -63,8 +63,8 @@ class Session:
         """Be as after a start, but for the tracks that must be reported as deleted."""
         for known in (self._follower.history, self.guard, self.whereabouts):
             known.reset()
-        name, is_mounted = self._node_config.tracking_frame, self.instrument.is_mounted
-        self.frame = TrackingFrame(name, is_mounted, self.log.info)
+        name = frame_name(self._node_config.tracking_frame)
+        self.frame = TrackingFrame(name, self.instrument.is_mounted, self.log.info)
         self.frame.by_tree = self.whereabouts.transforms is not None
         self.stamp: Any = None  # of the last plots that were used
         self.mapping: dict[str, str] = {}
@@ -172,7 +172,7 @@ class Session:
         """Take one odometry of the platform."""
         try:
             sample = to_platform(msg)
-            frame, time = msg.header.frame_id.lstrip('/'), float(sample.time[0])
+            frame, time = frame_of(msg), float(sample.time[0])
             appeared = self.frame.check_ownship(frame, time)
             if self.whereabouts.take(sample, received) or appeared:
                 self._start_anew('own ship appeared' if appeared else 'own ship is elsewhere')

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from msg_adapters.bad_message import BadMessage
-from msg_adapters.message_types import seconds
+from msg_adapters.message_types import frame_name, seconds
 from msg_adapters.table import Columns, to_columns
 from msg_adapters.track_rows import CONFIRMED
 from radar_tracker.config import SensorConfig
@@ -136,7 +136,7 @@ def frame_of(path: Path | str, topic: str) -> str:
         chosen = [connection for connection in bag.connections if connection.topic == topic]
         for connection, _, raw in bag.messages(chosen) if chosen else ():
             msg: Any = bag.deserialize(raw, connection.msgtype)
-            return str(msg.header.frame_id).lstrip('/')
+            return frame_name(msg.header.frame_id)
     return ''
 
 

@@ -89,6 +89,14 @@ def test_refused_first_message_decides_nothing():
     assert len(follow(radar, range(12))) == 5
 
 
+@pytest.mark.parametrize(('set_to', 'told'), [('/radar', 'radar'), ('radar', '/radar')])
+def test_frames_are_the_same_with_and_without_a_slash(set_to, told):
+    """As ROS 1 wrote them; what is published has none, as tf2 wants it."""
+    tracker, msg = session(tracking_frame=set_to), scan(1)
+    msg.header.frame_id = told
+    assert tracker.plots(msg, 0.0).header.frame_id == 'radar'
+
+
 def test_stamp_of_the_plots_is_the_stamp_of_the_tracks():
     """To the nanosecond, so that consumers can pair them."""
     msg = scan(0)
