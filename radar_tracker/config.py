@@ -178,8 +178,8 @@ class RadarTrackerConfig:
     )  # fmt: skip
     longest_pause: float = parameter(
         0.0, unit='s', low=0.0, live=True,
-        doc='after a pause that is longer, several looks at least, tracks end, since nobody knows '
-        'who is who; 0: they go on',
+        doc='after a pause that is longer, three turns of the antenna at least, tracks end, since '
+        'nobody knows who is who; of snapshots set several intervals; 0: they go on',
     )  # fmt: skip
     max_tracks: int = parameter(
         5000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000

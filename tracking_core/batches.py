@@ -280,6 +280,7 @@ class StepReport:
     merged: int = 0
     refused: int = 0  # new tracks that did not fit in max_tracks
     broken: int = 0  # tracks dropped because a covariance was not positive definite
+    silent: int = 0  # tracks and first plots that nobody looked at for too long (longest_pause)
     clutter_density: float = 0.0  # per unit of plot space, as used
     deleted: Ints = field(default_factory=lambda: np.zeros(0, np.int64))  # (D,) ids
 

@@ -24,6 +24,7 @@ from tracking_core.rows import concatenate, take
 from tracking_core.update import Look, look
 
 FULL_TURN = 2.0 * np.pi
+FEWEST_TURNS = 3.0  # of the antenna; shorter is no pause
 
 
 @dataclass
@@ -97,6 +98,7 @@ class Tracker:
             refused=len(born) - len(fitting),
             broken=seen.broken,
             clutter_density=density.clutter,
+            silent=len(silent) + len(self.state.seeds) - len(state.seeds),
             deleted=np.concatenate([silent, seen.ended, merged]),
         )
         self.state = State(
@@ -145,7 +147,10 @@ class Tracker:
     def _without_silent(self, scan: Scan) -> tuple[State, Ints]:
         """Return the state without what nobody looked at for too long, and the ids of tracks."""
         tracks, seeds = self.state.tracks, self.state.seeds
-        earliest = scan.coverage.start_time - (self.setup.longest_pause or np.inf)
+        pause, rate = self.setup.longest_pause or np.inf, abs(scan.coverage.rotation_rate)
+        if rate:
+            pause = max(pause, FEWEST_TURNS * FULL_TURN / rate)
+        earliest = scan.coverage.start_time - pause
         silent, old = tracks.time < earliest, seeds.time < earliest
         if not (silent.any() or old.any()):
             return self.state, tracks.id[:0]

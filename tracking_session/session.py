@@ -132,6 +132,7 @@ class Session:
         if self._accept(plots.stamp, received):
             self._start_anew(f'time moved to {plots.stamp:.3f} (a recording that began anew?)')
         tracks = self._follower.step(plots, platform, self.frame)
+        self._tell_silent()
         self._use(reading)
         self.stamp = msg.header.stamp
         last, self.published = self.published, tracks
@@ -156,6 +157,13 @@ class Session:
         self.log.warning(f'{why}: tracking starts anew')
         self._follower.history.reset()
         self.instrument.tracker.reset()
+
+    def _tell_silent(self) -> None:
+        """Say what a pause has ended; all, again and again, where it is set too short."""
+        tracker = self.instrument.tracker
+        if silent := tracker.state.report.silent:
+            what = f'{silent} tracks and first plots end: no look for more than'
+            self.ledger.warn('pause', f'{what} {tracker.config.longest_pause:g} s (longest_pause)')
 
     def _use(self, reading: Reading[Any]) -> None:
         """Count the rows of a message that is accepted, and say once which fields are used."""

@@ -143,3 +143,12 @@ def test_same_messages_give_the_same_bytes():
         for sonar in (session(), session())
     ]
     assert tables[0] == tables[1]
+
+
+def test_what_a_pause_ends_is_told(caplog):
+    """A pause that is shorter than a cycle ends all tracks in every cycle: the log says why."""
+    sonar = session({'longest_pause': 0.5 * PERIOD})
+    for number in range(6):
+        sonar.plots(cycle(number), PERIOD * number)
+    assert not sonar.tracks.confirmed.any()
+    assert '5 tracks and first plots end: no look for more than 1 s (longest_pause)' in caplog.text
