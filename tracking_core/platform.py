@@ -92,8 +92,7 @@ class Platform:
             order = _in_order(joined['time'])
             joined = {name: values[order] for name, values in joined.items()}
         time = joined['time']
-        recent = len(time) - np.searchsorted(time, time[-1:] - span)
-        most = max(self.capacity, *recent.tolist())
+        most = max(self.capacity, np.count_nonzero(time >= time[-1:] - span))
         kept = {name: values[-most:] for name, values in joined.items()}
         return Platform(**kept, max_extrapolation=self.max_extrapolation, capacity=self.capacity)
 

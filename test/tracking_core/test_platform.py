@@ -84,6 +84,7 @@ def test_unknown_platform_is_refused():
     with pytest.raises(StalePlatform, match='no sample'):
         Platform.empty().at(np.array([1.0]))
     assert len(Platform.empty().at(np.zeros(0)).position) == 0
+    assert len(Platform.empty().add()) == 0
 
 
 def test_samples_are_kept_in_order_and_bounded():
