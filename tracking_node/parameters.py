@@ -22,6 +22,7 @@ from rcl_interfaces.msg import (
 
 from tracking_core.config import hint, Parameter, parameters, with_values
 from tracking_node.qos_overrides import complaint, is_override
+from tracking_session.other_sensor import other_sensor
 
 Configs = tuple[Any, ...]
 
@@ -61,7 +62,11 @@ class NodeParameters:
         for name in filter(is_override, given):
             if wrong := complaint(name, given[name]):
                 raise BadParameter(f'parameter {wrong}')
-        self.configs = _with_values(configs, given)
+        known = {entry.name for entry in _all_parameters(configs)}
+        try:
+            self.configs = _with_values(configs, given)
+        except BadParameter as error:
+            raise BadParameter(f'{error}{other_sensor(given, known)}') from error
         self._changed, self.logger = changed, node.get_logger()
         for entry in _all_parameters(self.configs):
             node.declare_parameter(
@@ -69,7 +74,7 @@ class NodeParameters:
             )
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._follow)
-        self.unknown = _unknown(given, {entry.name for entry in _all_parameters(configs)})
+        self.unknown = _unknown(given, known)
         self.given = len(given) - len(self.unknown)
 
     def tell(self) -> None:
@@ -170,4 +175,5 @@ def _in_words(own: Mapping[str, Any], text: str) -> str:
 def _unknown(given: Mapping[str, Any], known: set[str]) -> dict[str, str]:
     """Return the names that no config has, each with a word on what was probably meant, or ''."""
     of_ros = {name for name in given if name in _OF_ROS or is_override(name)}
-    return {name: hint(name, known) for name in given if name not in known | of_ros}
+    unknown = given.keys() - known - of_ros
+    return {name: hint(name, known) or other_sensor([name], known) for name in sorted(unknown)}

@@ -12,6 +12,7 @@ import yaml
 
 from tracking_core.config import hint, parameters, with_values
 from tracking_node.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
+from tracking_session.other_sensor import other_sensor
 
 Configs = TypeVar('Configs', bound=tuple[Any, ...])
 
@@ -73,7 +74,8 @@ def configure(configs: Configs, values: Mapping[str, Any]) -> Configs:
     known = [name for own in names for name in own]
     for name in values:
         if name not in known and not name.startswith(OF_ROS):
-            raise ValueError(f'unknown parameter {name}{hint(name, known)}')
+            meant = hint(name, known) or other_sensor([name], known)
+            raise ValueError(f'unknown parameter {name}{meant}')
     return tuple(  # type: ignore[return-value]
         with_values(config, {name: values[name] for name in own if name in values})
         for config, own in zip(configs, names, strict=True)

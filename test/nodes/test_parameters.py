@@ -105,6 +105,15 @@ def test_parameter_files_are_told_apart(start_node, tmp_path):
     assert 'are for /radar_traker, none for /radar_tracker' in line
 
 
+def test_parameter_file_of_the_other_sensor_is_told(start_node):
+    """A value that only the sonar has ends the radar node, and its names are said to be its."""
+    node = start_node(arguments=['--params-file', str(ROOT / 'config/direction_finder.yaml')])
+    line = node.wait_for_line('estimator must be one of')
+    assert 'the sonar tracker has sensor.array: is the parameter file meant for it?' in line
+    node = start_node('ranging.enabled:=false')
+    assert 'the sonar tracker has ranging.enabled' in node.wait_for_line('there is no parameter')
+
+
 @pytest.mark.parametrize('sensor', ['radar', 'sonar'], indirect=True)
 def test_live_change_holds_from_the_next_scan_on(start_node, probe):
     """A wider gate is in the table of the very next scan; the tracks are kept."""

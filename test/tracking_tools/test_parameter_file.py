@@ -131,8 +131,9 @@ def test_configure_names_the_nearest_known_parameter(name, near):
 
 @pytest.mark.parametrize('name', ['sensor.bearing_sd', 'initiation.rate_max', 'sensor.array'])
 def test_parameter_of_another_sensor_has_no_near_one(name):
-    """What is only alike is no hint: bearing_sd is not a slip of range_sd."""
-    with pytest.raises(ValueError, match=f'unknown parameter {name}$'):
+    """What is only alike is no hint: bearing_sd is not a slip of range_sd, but the sonar's."""
+    said = f'unknown parameter {name}; the sonar tracker has {name}: is the parameter file meant'
+    with pytest.raises(ValueError, match=said):
         configure((RadarTrackerConfig(), radar_node_config()), {name: 1})
 
 
