@@ -92,7 +92,7 @@ class Platform:
             order = _in_order(joined['time'])
             joined = {name: values[order] for name, values in joined.items()}
         time = joined['time']
-        most = max(self.capacity, np.count_nonzero(time >= time[-1:] - span))
+        most = max(self.capacity, int(np.count_nonzero(time >= time[-1:] - span)))
         kept = {name: values[-most:] for name, values in joined.items()}
         return Platform(**kept, max_extrapolation=self.max_extrapolation, capacity=self.capacity)
 
