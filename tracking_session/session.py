@@ -22,7 +22,6 @@ from tracking_session.frames import TrackingFrame
 from tracking_session.history import History
 from tracking_session.input_count import InputCount
 from tracking_session.instrument import Instrument
-from tracking_session.late import Follower
 from tracking_session.ledger import Ledger, Log
 from tracking_session.node_config import NodeConfig
 from tracking_session.stamp_guard import StampGuard
@@ -53,15 +52,14 @@ class Session:
         self.ledger = Ledger(f'{instrument.topic} ownship acquire', log.warning)
         self.guard = StampGuard(node_config.time_jump_threshold)
         self.whereabouts = Whereabouts(node_config)
-        history = History(node_config.scan.late, node_config.time_jump_threshold)
-        self._follower = Follower(instrument, history)
+        self._history = History(instrument, node_config.scan.late, node_config.time_jump_threshold)
         self._node_config, self.types, self.log = node_config, types, log
         self.published = instrument.tracker.tracks
         self._forget()
 
     def _forget(self) -> None:
         """Be as after a start, but for the tracks that must be reported as deleted."""
-        for known in (self._follower.history, self.guard, self.whereabouts):
+        for known in (self._history, self.guard, self.whereabouts):
             known.reset()
         name = frame_name(self._node_config.tracking_frame)
         self.frame = TrackingFrame(name, self.instrument.is_mounted, self.log.info)
@@ -119,19 +117,19 @@ class Session:
 
     def _follow(self, msg: Any, received: float) -> Any:
         reading = self.instrument.read(msg, self.mapping)
-        plots, history = reading.plots, self._follower.history
+        plots = reading.plots
         self.frame.check_plots(plots.frame, reading.is_polar)
         if len(plots):
             self.instrument.check(self.frame, self.ledger.warn)
         platform = self.whereabouts.covering(self.instrument.moments(plots), self.frame)
-        if history.takes(plots.stamp) and not self.guard.is_going_back:
-            self._follower.insert(plots, platform, self.frame)
+        if self._history.takes(plots.stamp) and not self.guard.is_going_back:
+            self._history.insert(plots, platform, self.frame)
             self._use(reading)
             self.counts[self.instrument.topic].late_used += 1
             return None
         if self._accept(plots.stamp, received):
             self._start_anew(f'time moved to {plots.stamp:.3f} (a recording that began anew?)')
-        tracks = self._follower.step(plots, platform, self.frame)
+        tracks = self._history.step(plots, platform, self.frame)
         self._tell_silent()
         self._use(reading)
         self.stamp = msg.header.stamp
@@ -143,7 +141,7 @@ class Session:
         try:
             return self.guard.accept(stamp, received)
         except BadMessage:
-            history, topic = self._follower.history, self.instrument.topic
+            history, topic = self._history, self.instrument.topic
             self.counts[topic].late_dropped += history.has_lost(stamp)
             if history.lacks_room(stamp):
                 self.ledger.warn(
@@ -155,7 +153,7 @@ class Session:
 
     def _start_anew(self, why: str) -> None:
         self.log.warning(f'{why}: tracking starts anew')
-        self._follower.history.reset()
+        self._history.reset()
         self.instrument.tracker.reset()
 
     def _tell_silent(self) -> None:
@@ -190,12 +188,12 @@ class Session:
     def start_track(self, position: Floats) -> int:
         """Start a confirmed track that late plots do not undo; return its id."""
         track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
-        self._follower.history.close()
+        self._history.close()
         return track_id
 
     def drop_track(self, track_id: int) -> bool:
         """Delete one track, which late plots do not undo; return whether it was there."""
         was_there = self.instrument.tracker.drop_track(track_id)
         if was_there:
-            self._follower.history.close()
+            self._history.close()
         return was_there

@@ -2,25 +2,45 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which late messages have a place, and how many messages are kept."""
 
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from tracking_core.platform import Platform
-from tracking_session.history import FEWEST, History, MOST, Step
+from tracking_core.platform import Platform, StalePlatform
+from tracking_session.history import FEWEST, History, MOST
 
 
-def step(stamp, tracks=10, platform=None):
-    """Return a message of this stamp, after which there were so many tracks."""
-    return Step(stamp, None, None, platform, SimpleNamespace(tracks=range(tracks)))
+@dataclass
+class Known:
+    """What a tracker remembers, as far as a history asks."""
+
+    next_id: int
+    tracks: range
+
+
+def instrument(turn=0.0, tracks=10):
+    """Return a sensor that turns in so many seconds and has so many tracks, always the same."""
+    tracker = SimpleNamespace(
+        save=lambda: None,
+        restore=lambda memory: None,
+        turn_time=turn,
+        state=Known(1, range(tracks)),
+    )
+    return SimpleNamespace(tracker=tracker, track=lambda plots, platform, frame: None)
+
+
+def at(stamp):
+    """Return plots of this stamp."""
+    return SimpleNamespace(stamp=stamp)
 
 
 def filled(stamps, scans=3, turn=0.0, margin=10.0, tracks=10):
     """Return a history of messages with these stamps."""
-    history = History(scans, margin)
+    history = History(instrument(turn, tracks), scans, margin)
     for stamp in stamps:
-        history.add(step(stamp, tracks), turn)
+        history.step(at(stamp), None, None)
     return history
 
 
@@ -38,7 +58,7 @@ def test_first_messages_may_be_preceded_by_the_margin_only():
     history = filled([100.0])
     assert history.takes(95.0)
     assert not history.takes(89.0)
-    assert not History(3, 10.0).takes(0.0)
+    assert not filled([]).takes(0.0)
 
 
 def test_sectors_are_kept_for_three_turns():
@@ -64,7 +84,7 @@ def test_memory_is_bounded(tracks, most):
     assert history.lacks_room(0.9995 - 1e-3 * most - 0.001)
     assert not history.lacks_room(0.9995)
     assert not history.lacks_room(-12.0)
-    assert len(history.take_after(-1.0)) == most
+    assert len(history) == most
 
 
 def test_steps_keep_as_much_of_the_path_as_a_turn_needs():
@@ -73,9 +93,19 @@ def test_steps_keep_as_much_of_the_path_as_a_turn_needs():
     zero, covariance = np.zeros((len(time), 3)), np.zeros((len(time), 3, 3))
     turn = np.tile([0.0, 0.0, 0.0, 1.0], (len(time), 1))
     path = Platform(time, zero, turn, zero, covariance, 0.0 * time)
-    history = History(3, 10.0)
-    history.add(step(59.0, platform=path), 4.0)
-    kept = history.take_after(0.0)[0].platform
+    sensor, seen = instrument(turn=4.0), []
+    history = History(sensor, 3, 10.0)
+    history.step(at(59.0), path, None)
+
+    def refuse(plots, platform, frame):
+        seen.append(platform)
+        if plots.stamp == 59.0:
+            raise StalePlatform('seen enough')
+
+    sensor.track = refuse
+    with pytest.raises(StalePlatform):
+        history.insert(at(58.0), path, None)
+    kept = seen[-1]
     assert kept.time[0] == pytest.approx(51.0, abs=0.02)
     assert kept.time[-1] == time[-1]
     assert all(values.base is None for values in vars(kept).values() if np.ndim(values))
@@ -87,7 +117,7 @@ def test_as_many_scans_are_kept_as_the_parameter_says(scans):
     history = filled([4.0 * k for k in range(20)], scans)
     assert history.takes(4.0 * (19 - scans) + 1.0) == (scans > 0)
     assert not history.takes(4.0 * (18 - scans) + 1.0)
-    assert len(history.take_after(-1.0)) == scans
+    assert len(history) == scans
     assert not filled([0.0, 4.0], 0, turn=4.0).takes(2.0)
 
 
@@ -95,6 +125,6 @@ def test_nothing_comes_before_what_was_closed():
     """A user's command is not undone."""
     history = filled([0.0, 4.0])
     history.close()
-    history.add(step(8.0), 0.0)
+    history.step(at(8.0), None, None)
     assert history.takes(6.0)
     assert not history.takes(3.0)
