@@ -9,8 +9,9 @@ the platform's odometry, everything else is refused with both names and the ways
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from msg_adapters.bad_message import BadMessage, shown
 from tracking_session.newcomer import AGREEING, Newcomer
@@ -20,6 +21,9 @@ WAYS_OUT = (
     'sensor stands in the tracking frame, or set tracking_frame to the frame of the data, or set '
     'use_tf'
 )
+
+
+_REMEMBERED = ('name', 'sensor', 'has_ship', 'polar', 'learnt')
 
 
 @dataclass
@@ -47,6 +51,15 @@ class TrackingFrame:
     polar: bool = False  # plots are directions from the sensor, not places
     learnt: bool = False  # the name came from a message
     newcomer: Newcomer = field(default_factory=Newcomer)
+
+    def remember(self) -> dict[str, Any]:
+        """Return what became known, for a restart."""
+        return {name: getattr(self, name) for name in _REMEMBERED}
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Go on from what was remembered."""
+        for name in _REMEMBERED:
+            setattr(self, name, memory[name])
 
     @property
     def needs_platform(self) -> bool:

@@ -8,8 +8,6 @@ from typing import Any
 
 from tracking_session.session import Session
 
-OF_FRAME = ('name', 'sensor', 'has_ship', 'polar', 'learnt')
-
 
 def remember(session: Session) -> dict[str, Any]:
     """Return all that is known, as numbers, texts, and lists and dictionaries of them."""
@@ -17,7 +15,7 @@ def remember(session: Session) -> dict[str, Any]:
     return {
         'stamp': None if stamp is None else (stamp.sec, stamp.nanosec),
         'guard': session.guard.remember(),
-        'frame': {name: getattr(session.frame, name) for name in OF_FRAME},
+        'frame': session.frame.remember(),
         'fields': [list(pair) for pair in session.mapping.items()],
     }
 
@@ -38,8 +36,7 @@ def recall(session: Session, memory: dict[str, Any], received: float) -> None:
     """
     session.published = session.tracks
     session.guard.recall(memory['guard'], received)
-    for name in OF_FRAME:
-        setattr(session.frame, name, memory['frame'][name])
+    session.frame.recall(memory['frame'])
     session.mapping = {str(ours): str(theirs) for ours, theirs in memory['fields']}
     if memory['stamp'] is not None:
         sec, nanosec = memory['stamp']
