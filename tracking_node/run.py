@@ -14,8 +14,8 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.utilities import ok, remove_ros_args, try_shutdown
 
 from tracking_node.clocks import steady_timer
-from tracking_node.parameter_blocks import foreign_files, missing_files
 from tracking_node.parameters import BadParameter
+from tracking_session.parameter_blocks import foreign_files, missing_files
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
 LOOK = 1.0  # between two looks at whether the context has ended [s]

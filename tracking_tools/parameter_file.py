@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 import yaml
 
 from tracking_core.config import hint, parameters, with_values
-from tracking_node.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
 from tracking_session.other_sensor import other_sensor
+from tracking_session.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
 
 Configs = TypeVar('Configs', bound=tuple[Any, ...])
 

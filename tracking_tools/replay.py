@@ -21,7 +21,7 @@ from rosbags.highlevel import AnyReader
 from tqdm import tqdm
 
 from msg_adapters.message_types import rosbags_types
-from tracking_node.parameter_blocks import BadParameterFile
+from tracking_session.parameter_blocks import BadParameterFile
 from tracking_session.session import Session
 from tracking_tools.arguments import file_to_write
 from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, open_bag, POINT_CLOUD, UNREADABLE

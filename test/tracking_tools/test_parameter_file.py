@@ -8,7 +8,7 @@ import pytest
 
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
-from tracking_node.parameter_blocks import BadParameterFile
+from tracking_session.parameter_blocks import BadParameterFile
 from tracking_tools.parameter_file import (
     configure,
     parse_value,

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from tracking_core.config import parameters
-from tracking_node.parameter_blocks import BadParameterFile
+from tracking_session.parameter_blocks import BadParameterFile
 from tracking_tools.evaluation import Yardstick
 from tracking_tools.parameter_file import configure, parse_value
 from tracking_tools.scenarios import build_any, SCENES
