@@ -1,10 +1,11 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Time as rclpy has it: its types, timers that never stand still, a clock that goes back."""
+"""Time as rclpy has it: types, timers that never stand still, a clock that goes back, ages."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+import time
 from typing import Any
 
 from rclpy.clock import Clock, JumpThreshold
@@ -36,11 +37,24 @@ def has_no_clock(node: Any) -> bool:
     return bool(clock.ros_time_is_active and clock.now().nanoseconds == 0)
 
 
-def to_time(time: float) -> Time:
+def to_time(seconds: float) -> Time:
     """Return a time [s since the epoch] as rclpy has it."""
-    return Time(nanoseconds=round(time * NANOSECONDS))
+    return Time(nanoseconds=round(seconds * NANOSECONDS))
 
 
 def to_duration(seconds: float) -> Duration:
     """Return a duration [s] as rclpy has it."""
     return Duration(nanoseconds=round(seconds * NANOSECONDS))
+
+
+def age(info: Any) -> float:
+    """Return how long ago a message came [s]."""
+    return float((time.time_ns() - info['received_timestamp']) / NANOSECONDS)
+
+
+def arrival_time(node: Any) -> float:
+    """Return the time that tells how long an input was silent: simulated, or steady [s]."""
+    clock = node.get_clock()
+    if clock.ros_time_is_active:
+        return float(clock.now().nanoseconds / NANOSECONDS)
+    return time.monotonic()

@@ -11,10 +11,9 @@ waited too long, it is the newest that is used.
 from __future__ import annotations
 
 from collections.abc import Mapping
-import time
 from typing import Any
 
-from msg_adapters.message_types import NANOSECONDS
+from tracking_node.clocks import age
 from tracking_node.endpoints import DEPTH
 from tracking_session.ledger import Ledger
 
@@ -85,16 +84,3 @@ def _take_waiting(subscription: Any) -> list[tuple[Any, Any]]:
                 break
             waiting.append(taken)
     return waiting
-
-
-def age(info: Any) -> float:
-    """Return how long ago a message came [s]."""
-    return float((time.time_ns() - info['received_timestamp']) / NANOSECONDS)
-
-
-def arrival_time(node: Any) -> float:
-    """Return the time that tells how long an input was silent: simulated, or steady [s]."""
-    clock = node.get_clock()
-    if clock.ros_time_is_active:
-        return float(clock.now().nanoseconds / NANOSECONDS)
-    return time.monotonic()

@@ -19,8 +19,9 @@ from msg_adapters.kinds.menu import message_class
 from msg_adapters.message_types import rclpy_types
 from tracking_node.body_topics import BodyTopics
 from tracking_node.clock_check import ClockCheck
+from tracking_node.clocks import age, arrival_time
 from tracking_node.display import MarkerTopic
-from tracking_node.inputs import age, arrival_time, Inputs
+from tracking_node.inputs import Inputs
 from tracking_node.openings import Openings
 from tracking_node.reporter import Reporter
 from tracking_node.waiting import Waiting
