@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 
 from benchmarks.recordings import PROJECT
-from msg_adapters.message_types import rosbags_types
+from msg_adapters.message_types import NANOSECONDS, rosbags_types
 from msg_adapters.table import from_columns_under, to_columns
-from tracking_tools.bags import BagWriter, NANOSECONDS, open_bag
+from tracking_tools.bags import BagWriter, open_bag
 from tracking_tools.replay import read_configs, replay
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report import load_page

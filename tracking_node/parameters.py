@@ -22,9 +22,8 @@ from rcl_interfaces.msg import (
 
 from tracking_core.config import hint, Parameter, parameters, with_values
 from tracking_node.qos_overrides import complaint, is_override
+from tracking_session.node_config import Configs
 from tracking_session.other_sensor import other_sensor
-
-Configs = tuple[Any, ...]
 
 # What rclpy declares by itself.
 _OF_ROS = ('use_sim_time', 'start_type_description_service')

@@ -25,11 +25,11 @@ from tracking_node.inputs import Inputs
 from tracking_node.openings import Openings
 from tracking_node.reporter import Reporter
 from tracking_node.waiting import Waiting
+from tracking_session.node_config import Configs
 from tracking_session.orders import acquire, cancel
 from tracking_session.session import Session
 from tracking_session.snapshots.keeper import Keeper
 
-Configs = tuple[Any, ...]
 MakeSession = Callable[..., Session]
 
 RETRY = 0.02  # s between two looks for a transform that is missed

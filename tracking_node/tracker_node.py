@@ -15,10 +15,11 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 
 from msg_adapters.kinds.menu import available
 from msg_adapters.radar_tracks import available as outputs
-from tracking_node.parameters import Configs, NodeParameters
+from tracking_node.parameters import NodeParameters
 from tracking_node.run import NotStarted
 from tracking_node.topics import LiveTopics, MakeSession
 from tracking_node.transitions import refuse_wrong_transitions, reported
+from tracking_session.node_config import Configs
 
 
 class TrackerNode(LifecycleNode):

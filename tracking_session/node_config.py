@@ -12,6 +12,8 @@ from msg_adapters.message_types import frame_name
 from msg_adapters.radar_tracks import NAME as RADAR_TRACKS
 from tracking_core.config import parameter, validate
 
+Configs = tuple[Any, ...]  # of the tracker, then of its node
+
 
 def field_name() -> Any:
     """Return a parameter that names a field of a message."""

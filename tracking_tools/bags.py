@@ -28,8 +28,9 @@ from rosbags.serde import SerdeError
 from rosbags.typesys import get_typestore, Stores
 from rosbags.typesys.store import Typestore
 
+from msg_adapters.message_types import NANOSECONDS
+
 TYPESTORE: Typestore = get_typestore(Stores.ROS2_JAZZY)
-NANOSECONDS = 1_000_000_000
 POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
 UNREADABLE = (AnyReaderError, SerdeError)  # a message that is damaged
 MAX_ROWS = 1_000_000  # of one message that the tools read

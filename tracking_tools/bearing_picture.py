@@ -9,6 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 import numpy as np
 
+from tracking_session.node_config import Configs
 from tracking_tools.bearing_frame import frame_of_tracks
 from tracking_tools.bearing_panels import draw_nothing, draw_ranges, draw_record, MINUTE
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
@@ -17,7 +18,6 @@ from tracking_tools.crossings import find_crossings
 from tracking_tools.picture import save
 from tracking_tools.picture_style import BACK, FAINT, INK
 from tracking_tools.replay_topics import Topics
-from tracking_tools.sensors import Configs
 
 SIZE, DPI = (12.8, 10.0), 115  # inches: 1472 x 1150 pixels
 BITS = 5  # of a colour: the glow is smooth and would cost many bytes

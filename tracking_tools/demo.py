@@ -16,6 +16,7 @@ import shutil
 import signal
 import sys
 
+from tracking_session.node_config import Configs
 from tracking_tools.arguments import positive
 from tracking_tools.bags import BadBag
 from tracking_tools.demo_player import play
@@ -26,7 +27,7 @@ from tracking_tools.replay import RADAR, read_configs, replay
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report import load_page
 from tracking_tools.scene import read_scene
-from tracking_tools.sensors import Configs, SensorKind
+from tracking_tools.sensors import SensorKind
 from tracking_tools.stopping import STOPPED
 
 ROOT = Path(__file__).parent.parent

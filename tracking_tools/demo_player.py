@@ -14,7 +14,8 @@ from typing import Any
 from rosbags.highlevel import AnyReader
 from tqdm import tqdm
 
-from tracking_tools.bags import BagWriter, NANOSECONDS, open_bag, POINT_CLOUD
+from msg_adapters.message_types import NANOSECONDS
+from tracking_tools.bags import BagWriter, open_bag, POINT_CLOUD
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.replay import RADAR
 from tracking_tools.replay_topics import (

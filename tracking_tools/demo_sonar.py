@@ -9,6 +9,7 @@ import sys
 
 import numpy as np
 
+from tracking_session.node_config import Configs
 from tracking_tools import simulate
 from tracking_tools.bearing_picture import draw, NEAR
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
@@ -16,7 +17,7 @@ from tracking_tools.crossings import Crossing, find_crossings, find_hearings, He
 from tracking_tools.demo import Demo, ROOT, run
 from tracking_tools.replay_topics import Topics
 from tracking_tools.scenarios.watches import long_watch
-from tracking_tools.sensors import Configs, SENSORS
+from tracking_tools.sensors import SENSORS
 
 MINUTE = 60.0
 SONAR = SENSORS['sonar']

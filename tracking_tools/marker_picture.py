@@ -19,9 +19,10 @@ from matplotlib.figure import Figure
 import numpy as np
 from rosbags.highlevel import AnyReader
 
+from msg_adapters.message_types import NANOSECONDS
 from tracking_core.batches import Floats
 from tracking_tools.arguments import file_to_write
-from tracking_tools.bags import BadBag, NANOSECONDS, open_bag
+from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.marker_shapes import draw_markers, places
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.picture import save

@@ -6,15 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import yaml
 
 from tracking_core.config import hint, parameters, with_values
+from tracking_session.node_config import Configs
 from tracking_session.other_sensor import other_sensor
 from tracking_session.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
-
-Configs = TypeVar('Configs', bound=tuple[Any, ...])
 
 # Parameters that every node of ROS has; they mean nothing to a recording.
 OF_ROS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
@@ -76,7 +75,7 @@ def configure(configs: Configs, values: Mapping[str, Any]) -> Configs:
         if name not in known and not name.startswith(OF_ROS):
             meant = hint(name, known) or other_sensor([name], known)
             raise ValueError(f'unknown parameter {name}{meant}')
-    return tuple(  # type: ignore[return-value]
+    return tuple(
         with_values(config, {name: values[name] for name in own if name in values})
         for config, own in zip(configs, names, strict=True)
     )

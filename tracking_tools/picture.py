@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.image import imsave
 import numpy as np
 
+from tracking_session.node_config import Configs
 from tracking_tools.highlights import find_meeting, find_turning, holding_window
 from tracking_tools.panels import draw_plan, draw_probability, draw_window
 from tracking_tools.picture_style import BACK, FAINT, INK
 from tracking_tools.replay_topics import Topics
 from tracking_tools.scene import read_scene, Scene
-from tracking_tools.sensors import Configs
 
 SIZE, DPI = (12.8, 10.6), 125  # inches: 1600 x 1325 pixels
 

@@ -20,15 +20,16 @@ from typing import Any
 from rosbags.highlevel import AnyReader
 from tqdm import tqdm
 
-from msg_adapters.message_types import rosbags_types
+from msg_adapters.message_types import NANOSECONDS, rosbags_types
+from tracking_session.node_config import Configs
 from tracking_session.parameter_blocks import BadParameterFile
 from tracking_session.session import Session
 from tracking_tools.arguments import file_to_write
-from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, open_bag, POINT_CLOUD, UNREADABLE
+from tracking_tools.bags import BadBag, BagWriter, open_bag, POINT_CLOUD, UNREADABLE
 from tracking_tools.parameter_file import configure, parse_value, read_parameter_file
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.report import load_page
-from tracking_tools.sensors import Configs, SensorKind, SENSORS
+from tracking_tools.sensors import SensorKind, SENSORS
 from tracking_tools.stopping import stoppable, STOPPED
 from tracking_tools.summary import Console, Summary
 

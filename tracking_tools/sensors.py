@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
@@ -14,9 +13,8 @@ from radar_tracker.session import radar_session
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
+from tracking_session.node_config import Configs
 from tracking_session.session import Session
-
-Configs = tuple[Any, ...]  # of the tracker, then of its node
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ import sys
 
 from tqdm import tqdm
 
+from msg_adapters.message_types import NANOSECONDS
 from tracking_core.batches import Tracks
 from tracking_session.input_count import InputCount
-from tracking_tools.bags import NANOSECONDS
 
 
 @dataclass(frozen=True)

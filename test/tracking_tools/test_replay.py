@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from msg_adapters.message_types import rosbags_types
+from msg_adapters.message_types import NANOSECONDS, rosbags_types
 from msg_adapters.plots import to_plots
 from msg_adapters.table import to_columns
 from msg_adapters.tracks import track_columns
 from radar_tracker.tracker import RadarTracker
-from tracking_tools.bags import BagWriter, NANOSECONDS, open_bag, TYPESTORE
+from tracking_tools.bags import BagWriter, open_bag, TYPESTORE
 from tracking_tools.demo import play
 from tracking_tools.replay import main, RADAR, read_configs, replay
 from tracking_tools.replay_topics import Topics

@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from msg_adapters.message_types import NANOSECONDS
 from tracking_tools import replay as replay_module
-from tracking_tools.bags import BadBag, BagWriter, NANOSECONDS, TYPESTORE
+from tracking_tools.bags import BadBag, BagWriter, TYPESTORE
 from tracking_tools.replay import main, replay
 from tracking_tools.replay_topics import Topics
 from tracking_tools.stopping import STOPPED

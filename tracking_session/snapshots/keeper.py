@@ -18,6 +18,7 @@ import time
 from typing import Any
 
 from tracking_core.config import parameters
+from tracking_session.node_config import Configs
 from tracking_session.session import Session
 from tracking_session.snapshots.file import BadSnapshot, read_snapshot, write_snapshot
 from tracking_session.snapshots.form import check_form
@@ -45,7 +46,7 @@ class Keeper:
     """
 
     def __init__(
-        self, session: Session, configs: tuple[Any, ...], clock: Callable[[], float] = time.time
+        self, session: Session, configs: Configs, clock: Callable[[], float] = time.time
     ) -> None:
         self._session, self._clock = session, clock
         self._config = configs[1].snapshot

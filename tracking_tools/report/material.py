@@ -13,13 +13,14 @@ import numpy as np
 
 from tracking_core.batches import Floats
 from tracking_core.config import parameters
+from tracking_session.node_config import Configs
 from tracking_tools.bags import BadBag, open_bag, POINT_CLOUD
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
 from tracking_tools.evaluation import judge, Judgement, Yardstick
 from tracking_tools.evaluation.reading import read_tracks
 from tracking_tools.replay_topics import check_topics, DIAGNOSTICS, Topics
 from tracking_tools.scene import read_scene, Scene
-from tracking_tools.sensors import Configs, SENSORS
+from tracking_tools.sensors import SENSORS
 
 STEP_TIME = 'step time [s]'
 

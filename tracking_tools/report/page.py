@@ -16,6 +16,7 @@ from bokeh.embed import json_item
 from bokeh.resources import Resources
 import numpy as np
 
+from tracking_session.node_config import Configs
 from tracking_tools.bearing_frame import frame_of_tracks
 from tracking_tools.picture_style import COLOURS, FAINT
 from tracking_tools.replay_topics import Topics
@@ -44,7 +45,6 @@ from tracking_tools.report.parts import (
 )
 from tracking_tools.report.stage import bearing_record, plan_view
 from tracking_tools.scene import Scene
-from tracking_tools.sensors import Configs
 
 MINUTE = 60.0
 
