@@ -12,7 +12,7 @@ from radar_tracker.antenna import Sweep
 from radar_tracker.config import MountConfig, SensorConfig
 from tracking_core.batches import Coverage, Floats, Plots
 from tracking_core.linalg import wrap_angle
-from tracking_core.platform import PlatformPose
+from tracking_core.platform_pose import PlatformPose
 
 _LEAST_UPRIGHT = 0.1  # of the deck's normal; a radar that lies on its side sees no horizon
 

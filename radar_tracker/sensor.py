@@ -15,7 +15,7 @@ from radar_tracker.mounting import PlatformDoubt
 from radar_tracker.told import excess, NOTHING, tell_noise
 from tracking_core.batches import Coverage, Floats, Plots, Scan
 from tracking_core.linalg import wrap_angle
-from tracking_core.platform import PlatformPose
+from tracking_core.platform_pose import PlatformPose
 from tracking_core.space import POINTS, Space
 
 _LEAST_DEPTH = 1.0  # m, of plot space: the only plot so far may lie at `range_min`

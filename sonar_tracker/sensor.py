@@ -11,7 +11,7 @@ import numpy as np
 from sonar_tracker.config import SensorConfig
 from tracking_core.batches import Bearings, Coverage, Floats, Scan
 from tracking_core.linalg import wrap_angle
-from tracking_core.platform import PlatformPose
+from tracking_core.platform_pose import PlatformPose
 from tracking_core.space import ANGLES, Space
 
 _LEAST_SINE = 0.05  # a linear array hears nothing of use nearer to its axis than 3 degrees

@@ -13,7 +13,7 @@ from radar_tracker.conversion import to_polar
 from radar_tracker.sensor import Radar
 from studies.passes import Measured
 from tracking_core.batches import Coverage, Floats, Plots
-from tracking_core.platform import PlatformPose
+from tracking_core.platform_pose import PlatformPose
 
 MILE, KNOT, DEGREE = 1852.0, 1852.0 / 3600.0, np.pi / 180.0
 PERIOD = 2.5  # s, a turn of the antenna

@@ -18,7 +18,8 @@ from msg_adapters.track_rows import CONFIRMED
 from sonar_tracker.config import SensorConfig
 from tracking_core.batches import Floats
 from tracking_core.linalg import wrap_angle
-from tracking_core.platform import Platform, PlatformPose, pose_at
+from tracking_core.platform import Platform, pose_at
+from tracking_core.platform_pose import PlatformPose
 from tracking_tools.bags import MAX_ROWS
 from tracking_tools.own_ship import read_platform
 from tracking_tools.replay_topics import Topics

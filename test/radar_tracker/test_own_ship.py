@@ -20,7 +20,8 @@ from radar_tracker.session import radar_session
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values
-from tracking_core.platform import Platform, PlatformPose
+from tracking_core.platform import Platform
+from tracking_core.platform_pose import PlatformPose
 from tracking_session.orders import acquire
 
 pytest.importorskip('rosbags')

@@ -14,7 +14,7 @@ from radar_tracker.sensor import Radar
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values
-from tracking_core.platform import PlatformPose
+from tracking_core.platform_pose import PlatformPose
 
 MOUNT = MountConfig(x=30.0, y=-8.0, z=12.0, yaw=0.4)
 LEVEL = MountConfig()

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
-from tracking_core.platform import Platform, PlatformPose, StalePlatform
+from tracking_core.platform import Platform, StalePlatform
+from tracking_core.platform_pose import PlatformPose
 
 
 def sample(time, x=0.0, yaw=0.0, speed=10.0):
