@@ -13,16 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from radar_tracker.rotation import find_rate, IN_STEP, TWO_PI
+from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, TWO_PI
 from tracking_core.batches import Floats, Plots
-from tracking_core.linalg import wrap_angle
 
 ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
 _SAMPLES = 400  # plots remembered while learning
 _INTERVALS = 5  # between messages, remembered
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
-_STILL = 1e-9  # part of the rate by which it may change and still stand
 _LONGEST = 2.0  # messages or turns that a plot may be off the stamp of its message
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
 
@@ -174,15 +172,6 @@ class Antenna:
 
     def _refine(self) -> None:
         """Fit the rate to the remembered plots; forget it when they are not on the beam."""
-        t = self._time - self._time.mean()
-        square = float(t @ t)
-        for _ in range(3):
-            beam = self._azimuth - self._rate * t
-            sine, cosine = np.sin(beam).sum(), np.cos(beam).sum()
-            step = float(t @ wrap_angle(beam - np.arctan2(sine, cosine))) / square
-            self._rate += step
-            if abs(step) < _STILL * abs(self._rate):
-                break
-        if np.hypot(sine, cosine) < IN_STEP * len(t):
-            self._rate = 0.0
+        self._rate = refine_rate(self._time, self._azimuth, self._rate)
+        if not self._rate:
             self._time, self._azimuth = self._time[-50:], self._azimuth[-50:]

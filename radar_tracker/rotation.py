@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Floats
+from tracking_core.linalg import wrap_angle
 
 TWO_PI = 2.0 * np.pi
 PERIODS = (0.4, 60.0)  # of antennas [s]
@@ -15,6 +16,7 @@ _NEARLY = 0.6  # the same of a candidate, which may be off by a part of the step
 _USUAL = 0.1  # part by which a turn may differ from the interval between full turns
 _RIVAL = 0.05  # resultant length by which a rate must fit better than any quite different one
 _STEPS = 8  # candidates from the top of a fit to its first zero
+_STILL = 1e-9  # part of the rate by which it may change and still stand
 _NEIGHBOURS = 12  # candidates to either side of one that are no different rate
 
 
@@ -42,6 +44,20 @@ def find_rate(time: Floats, azimuth: Floats, period: float, interval: float) -> 
         fit, least = _plausible(candidates, in_step(time, azimuth, candidates), interval), _NEARLY
     best = int(np.argmax(fit))
     return float(candidates[best]) if fit[best] > least else 0.0
+
+
+def refine_rate(time: Floats, azimuth: Floats, rate: float) -> float:
+    """Return the rate near this one that fits the plots best, 0 when they are not on the beam."""
+    t = time - time.mean()
+    square = float(t @ t)
+    for _ in range(3):
+        beam = azimuth - rate * t
+        sine, cosine = np.sin(beam).sum(), np.cos(beam).sum()
+        step = float(t @ wrap_angle(beam - np.arctan2(sine, cosine))) / square
+        rate += step
+        if abs(step) < _STILL * abs(rate):
+            break
+    return 0.0 if np.hypot(sine, cosine) < IN_STEP * len(t) else rate
 
 
 def in_step(time: Floats, azimuth: Floats, rates: Floats) -> Floats:
