@@ -22,6 +22,7 @@ _SAMPLES = 400  # plots remembered while learning
 _INTERVALS = 5  # between messages, remembered
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _LONGEST = 2.0  # messages or turns that a plot may be off the stamp of its message
+_AGREEING = 3  # messages that tell from when to when they reach; the middle one is believed
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
 
 
@@ -60,7 +61,9 @@ class Antenna:
         self._period = period  # [s], 0: to be learnt
         self._full_turns = full_turns
         self._collects = collects  # messages are sectors that were put together to whole turns
-        self._reference = time_reference
+        # End of a full turn after its stamp, in lengths of it; the plots' own times correct it.
+        self._reach = {'start': 1.0, 'middle': 0.5, 'end': 0.0}[time_reference]
+        self._first, self._last = np.zeros(0), np.zeros(0)  # plots after the last stamps [s]
         self._rate = 0.0  # [rad/s], 0: not known
         self._time, self._azimuth = np.zeros(0), np.zeros(0)
         self._stamp = self._start = np.nan  # of the last message [s]
@@ -101,8 +104,11 @@ class Antenna:
             Where the antenna points; learnt from the plots without.
 
         """
-        start = min(plots.stamp, float(plots.time.min(initial=np.inf)))
-        latest = max(plots.stamp, float(plots.time.max(initial=-np.inf)))
+        first = float(plots.time.min(initial=np.inf))
+        last = float(plots.time.max(initial=-np.inf))
+        if len(plots):
+            self._first = np.append(self._first, first - plots.stamp)[-_AGREEING:]
+            self._last = np.append(self._last, last - plots.stamp)[-_AGREEING:]
         if plots.stamp > self._stamp:
             interval = plots.stamp - self._stamp
             self._intervals = np.append(self._intervals, interval)[-_INTERVALS:]
@@ -110,15 +116,27 @@ class Antenna:
         if beam is None:
             self._learn(plots.time, azimuth)
         else:
-            self._rate, latest = beam.rate, max(latest, beam.end_time)
+            self._rate, last = beam.rate, max(last, beam.end_time)
             self._time, self._azimuth = np.array([beam.time]), np.array([beam.azimuth])
-        end = latest
         if self._full_turns and self._rate:
-            reach = {'start': 1.0, 'middle': 0.5, 'end': 0.0}[self._reference]
-            period = TWO_PI / abs(self._rate)
-            length = period if self._collects else min(self._interval, period)
-            end = max(latest, plots.stamp + reach * length)
-        return self._sweep(start, end)
+            start, end = self._turn(plots)
+            return self._sweep(min(start, first), max(end, last))
+        return self._sweep(min(plots.stamp, first), max(plots.stamp, last))
+
+    def _turn(self, plots: Plots) -> tuple[float, float]:
+        """
+        Return from when to when the message is that is a full turn, or less if they overlap.
+
+        The plots of the last messages must fit in; as much as they leave open, nothing changes.
+        """
+        period = TWO_PI / abs(self._rate)
+        length = period if self._collects else min(self._interval, period)
+        if length and len(self._first):
+            first, last = np.sort(self._first), np.sort(self._last)
+            earliest, latest = first[(len(first) - 1) // 2], last[len(last) // 2]
+            self._reach = float(max(min(self._reach, earliest / length + 1.0), latest / length))
+        start = plots.stamp + (self._reach - 1.0) * length
+        return start, start + length
 
     def _sweep(self, start: float, end: float) -> Sweep:
         last, self._start, self._end = self._end, start, end

@@ -125,6 +125,24 @@ def test_follow_heeds_what_the_stamp_means(reference: str, ahead: float) -> None
     assert sweep.end_time == pytest.approx(36.0, abs=0.01)
 
 
+@pytest.mark.parametrize('reference', ['start', 'middle', 'end'])
+@pytest.mark.parametrize('ahead', [4.0, 2.0, 0.0, -1.0])
+def test_follow_believes_plot_times_rather_than_what_the_stamp_should_mean(
+    reference: str, ahead: float
+) -> None:
+    """Turns of 4 s go on where the last one ended, whatever is said of their stamps."""
+    antenna = Antenna(4.0, True, reference)
+    turns = [replace(p, stamp=p.stamp + 4.0 - ahead) for p in sensed(4.0, 'clockwise', 12)]
+    sweeps = follow(antenna, turns)[-5:]
+    ends, starts = np.array([(sweep.end_time, sweep.start_time) for sweep in sweeps]).T
+    assert_allclose(ends, 32.0 + 4.0 * np.arange(5), atol=0.8)  # plots need not fill the turn
+    assert (starts[1:] < ends[:-1] + 0.08).all()
+    wrong = replace(turns[-1], time=turns[-1].time + 44.0, stamp=turns[-1].stamp + 4.0)
+    antenna.follow(wrong, wrong.azimuth)  # of one message nothing is believed
+    nothing = replace(Plots.polar(np.zeros(0), np.zeros(0), np.zeros(0)), stamp=56.0 - ahead)
+    assert antenna.follow(nothing, nothing.azimuth).end_time == pytest.approx(56.0, abs=0.8)
+
+
 @pytest.mark.parametrize('rotation', ['staring', 'clockwise', 'anticlockwise'])
 def test_follow_makes_up_no_rotation_from_one_contact(rotation: str) -> None:
     """One contact once in 4 s fits 4 s a turn, 2 s, 1 s ...: better no rate than a wrong one."""
