@@ -90,7 +90,9 @@ class Antenna:
         middle = (len(self._intervals) - 1) // 2
         return float(np.sort(self._intervals)[middle]) if len(self._intervals) else 0.0
 
-    def follow(self, plots: Plots, azimuth: Floats, beam: Beam | None = None) -> Sweep:
+    def follow(
+        self, plots: Plots, azimuth: Floats, beam: Beam | None = None, part: float = 0.0
+    ) -> Sweep:
         """
         Return what the message swept.
 
@@ -102,6 +104,8 @@ class Antenna:
             Of the plots in sensor axes [rad].
         beam : Beam, optional
             Where the antenna points; learnt from the plots without.
+        part : float
+            Of a turn that could not be collected whole, how long it is [s].
 
         """
         first = float(plots.time.min(initial=np.inf))
@@ -116,14 +120,14 @@ class Antenna:
         if beam is None:
             self._learn(plots.time, azimuth)
         else:
-            self._rate, last = beam.rate, max(last, beam.end_time)
+            self._rate, last = beam.rate, last if part else max(last, beam.end_time)
             self._time, self._azimuth = np.array([beam.time]), np.array([beam.azimuth])
         if self._full_turns and self._rate:
-            start, end = self._turn(plots)
+            start, end = self._turn(plots, part)
             return self._sweep(min(start, first), max(end, last))
         return self._sweep(min(plots.stamp, first), max(plots.stamp, last))
 
-    def _turn(self, plots: Plots) -> tuple[float, float]:
+    def _turn(self, plots: Plots, part: float) -> tuple[float, float]:
         """
         Return from when to when the message is that is a full turn, or less if they overlap.
 
@@ -136,7 +140,7 @@ class Antenna:
             earliest, latest = first[(len(first) - 1) // 2], last[len(last) // 2]
             self._reach = float(max(min(self._reach, earliest / length + 1.0), latest / length))
         start = plots.stamp + (self._reach - 1.0) * length
-        return start, start + length
+        return start, start + (part or length)
 
     def _sweep(self, start: float, end: float) -> Sweep:
         last, self._start, self._end = self._end, start, end

@@ -154,13 +154,14 @@ class RadarTracker:
 
         """
         self._recognise(plots)
-        rate = self.antenna.rotation_rate
-        collected = self.turns.add(plots, rate) if self.turns is not None else plots
+        turns, rate = self.turns, self.antenna.rotation_rate
+        collected = turns.add(plots, rate) if turns is not None else plots
         if collected is None:
             return self.tracks
         pose = pose_at(platform, collected.time)
         self._allow_for(PlatformDoubt.of(pose) if platform is not None else None)
-        sweep = self.antenna.follow(collected, azimuth_of(collected, self.radar.is_polar), beam)
+        azimuth = azimuth_of(collected, self.radar.is_polar)
+        sweep = self.antenna.follow(collected, azimuth, beam, turns.part if turns else 0.0)
         ends = pose_at(platform, np.array([sweep.start_time, sweep.end_time]))
         coverage = self.coverage = coverage_of(sweep, ends, self.config.sensor)
         volume = self.radar.plot_space_volume(self.farthest or self.config.sensor.range_max)

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from radar_tracker.gaps import is_missing, STAMPS, usual_step
 from radar_tracker.rotation import TWO_PI
 from tracking_core.batches import Plots
 from tracking_core.rows import concatenate
@@ -27,16 +28,27 @@ class Turns:
     def __init__(self, period: float) -> None:
         self._period = period
         self._plots: Plots | None = None  # of the sectors so far
-        self._latest = np.nan  # stamp of the last sector [s]
+        self._stamps = np.zeros(0)  # of the last sectors [s]
+        self.part = 0.0  # how long that was which was returned last [s], 0: a turn
 
     def add(self, sector: Plots, rotation_rate: float) -> Plots | None:
-        """Return the turn that this sector completes, with the stamp of its first, or None."""
+        """
+        Return the turn that this sector completes, with the stamp of its first, or None.
+
+        Where sectors are missing before this one, those so far are all that comes of their turn.
+        """
+        period = self._period or (TWO_PI / abs(rotation_rate) if rotation_rate else 0.0)
+        self._stamps = np.append(self._stamps, sector.stamp)[-STAMPS:]
+        ahead = float(np.diff(self._stamps[-2:]).sum())  # when this sector will be over
+        if is_missing(self._stamps, period):
+            ahead = usual_step(self._stamps, period)
+            if self._plots is not None:
+                collected, self._plots = self._plots, sector
+                self.part = float(self._stamps[-2]) + ahead - collected.stamp
+                return collected
         joined = sector if self._plots is None else concatenate(self._plots, sector)
         first = sector.stamp if self._plots is None else self._plots.stamp
-        period = self._period or (TWO_PI / abs(rotation_rate) if rotation_rate else 0.0)
         turn = replace(joined, stamp=first)
-        ahead = sector.stamp - self._latest  # when this sector will be over
-        self._latest = sector.stamp
-        is_whole = sector.stamp + np.nan_to_num(ahead) - first >= period * (1.0 - 1e-3)
-        self._plots = None if is_whole else turn
+        is_whole = sector.stamp + ahead - first >= period * (1.0 - 1e-3)
+        self._plots, self.part = None if is_whole else turn, 0.0
         return turn if is_whole else None

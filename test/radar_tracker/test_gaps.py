@@ -1,0 +1,91 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Sectors that are missing: nobody is missed where the antenna was not followed."""
+
+import logging
+
+import numpy as np
+import pytest
+
+from msg_adapters.table import from_columns
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.gaps import is_missing, usual_step
+from radar_tracker.node_config import radar_node_config
+from radar_tracker.session import radar_session
+from tracking_core.config import with_values
+
+pytest.importorskip('rosbags')
+TYPES = pytest.importorskip('msg_adapters.message_types').rosbags_types()
+PERIOD, SECTORS = 4.0, 8  # of the antenna [s], in a turn
+STEP = PERIOD / SECTORS
+AZIMUTH = 2.0 * np.pi * (np.arange(24) + 0.5) / 24.0  # of contacts at rest, three in a sector
+
+
+def session(**values):
+    """Return a session that takes sectors."""
+    config = with_values(RadarTrackerConfig(), {'scan.period': PERIOD, **values})
+    return radar_session(config, radar_node_config(), TYPES, logging.getLogger('gaps'))
+
+
+def sector(number, azimuth=AZIMUTH):
+    """Return the plots of one sector, which has the stamp of its beginning."""
+    begin = 2.0 * np.pi * (number % SECTORS) / SECTORS
+    ahead = (azimuth - begin) % (2.0 * np.pi)
+    seen = ahead < 2.0 * np.pi / SECTORS
+    rng, count = np.random.default_rng(number), int(seen.sum())
+    columns = {
+        'range': np.linspace(1e4, 4e4, len(azimuth))[seen] + rng.normal(0.0, 30.0, count),
+        'azimuth': azimuth[seen] + rng.normal(0.0, 1e-3, count),
+        'time': ahead[seen] / (2.0 * np.pi) * PERIOD,
+    }
+    return from_columns(columns, 1000.0 + STEP * number, 'radar', TYPES)
+
+
+def follow(radar, numbers):
+    """Feed sectors; return the most misses that each track has had meanwhile, by its id."""
+    misses = {}
+    for number in numbers:
+        radar.plots(sector(number), STEP * number)
+        for name, count in zip(radar.tracks.id, radar.tracks.misses, strict=True):
+            misses[int(name)] = max(int(count), misses.get(int(name), 0))
+    return misses
+
+
+def test_is_missing_knows_regular_sectors():
+    """One of eight is missing after the first turn; none is where stamps jitter by a fifth."""
+    stamps = STEP * (np.arange(40) + np.random.default_rng(1).uniform(-0.2, 0.2, 40))
+    assert usual_step(stamps, PERIOD) == pytest.approx(STEP, rel=0.4)
+    assert not any(is_missing(stamps[:n], PERIOD) for n in range(41))
+    assert is_missing(np.append(stamps[:20], stamps[21]), PERIOD)
+    assert is_missing(np.append(stamps[:20], stamps[28]), PERIOD)
+    assert not is_missing(stamps[[0, 3]], 0.0)
+
+
+def test_is_missing_lets_sectors_be_of_any_length():
+    """One that is three times as long as the others has always been so."""
+    stamps = np.cumsum(np.tile([0.3, 0.3, 0.9, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3, 0.4], 4))
+    assert not any(is_missing(stamps[:n], PERIOD) for n in range(45))
+    assert is_missing(np.delete(stamps, slice(25, 30))[:26], PERIOD)
+
+
+def test_is_missing_takes_a_place_that_is_silent_twice_for_empty():
+    """A radar may send no sector where it sees nothing; the first such turn is not believed."""
+    number = np.arange(60)
+    stamps = STEP * number[(number < 20) | (number % SECTORS != 3)]
+    answers = [is_missing(stamps[:n], PERIOD) for n in range(len(stamps) + 1)]
+    assert np.diff(stamps).max() == 2.0 * STEP
+    assert np.sum(answers) == 1
+
+
+@pytest.mark.parametrize('lost', [1, 3, 6, 12, 20, 36, 44, 60])
+def test_pause_amid_a_collected_turn_ends_no_track(lost):
+    """The sectors before it are no turn with those after it, and nobody is missed for it."""
+    radar = session(**{'scan.assembly': 'rotation'})
+    begin = SECTORS * 10 + 3
+    follow(radar, range(begin))
+    before = radar.tracks.id.tolist()
+    assert len(before) == len(AZIMUTH)
+    assert radar.tracks.confirmed.all()
+    follow(radar, range(begin + lost, begin + lost + 3 * SECTORS))
+    assert radar.tracks.id.tolist() == before
+    assert radar.tracks.misses.max() <= 1
