@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from radar_tracker.gaps import STAMPS
 from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, TWO_PI
 from tracking_core.batches import Floats, Plots
 
@@ -34,7 +35,7 @@ class Sweep:
     end_time: float  # [s]
     start_azimuth: float = 0.0  # sensor axes [rad]
     angle: float = 0.0  # signed [rad]; 0: a look everywhere at once
-    contiguous: bool = False
+    watched_since: float = np.inf  # goes on since then without a gap [s]; inf: is the first
 
 
 @dataclass(frozen=True)
@@ -63,12 +64,11 @@ class Antenna:
         self._collects = collects  # messages are sectors that were put together to whole turns
         # End of a full turn after its stamp, in lengths of it; the plots' own times correct it.
         self._reach = {'start': 1.0, 'middle': 0.5, 'end': 0.0}[time_reference]
-        self._first, self._last = np.zeros(0), np.zeros(0)  # plots after the last stamps [s]
+        self._spans = np.zeros((0, 2))  # of plots, after the last stamps [s]
         self._rate = 0.0  # [rad/s], 0: not known
         self._time, self._azimuth = np.zeros(0), np.zeros(0)
-        self._stamp = self._start = np.nan  # of the last message [s]
-        self._end = np.nan
-        self._intervals = np.zeros(0)  # between the stamps of the last messages [s]
+        self._stamps, self._end = np.zeros(0), np.nan  # of the last messages [s]
+        self._watched = -np.inf  # without a gap since then [s]
         self._tries = 0
         self._stares = stares  # told so, or plots of one moment came from different directions
 
@@ -87,8 +87,8 @@ class Antenna:
     @property
     def _interval(self) -> float:
         """How long it usually is from message to message [s], lost ones aside; 0: not known."""
-        middle = (len(self._intervals) - 1) // 2
-        return float(np.sort(self._intervals)[middle]) if len(self._intervals) else 0.0
+        steps = np.sort(np.diff(self._stamps[-_INTERVALS - 1 :]))
+        return float(steps[(len(steps) - 1) // 2]) if len(steps) else 0.0
 
     def follow(
         self, plots: Plots, azimuth: Floats, beam: Beam | None = None, part: float = 0.0
@@ -111,12 +111,10 @@ class Antenna:
         first = float(plots.time.min(initial=np.inf))
         last = float(plots.time.max(initial=-np.inf))
         if len(plots):
-            self._first = np.append(self._first, first - plots.stamp)[-_AGREEING:]
-            self._last = np.append(self._last, last - plots.stamp)[-_AGREEING:]
-        if plots.stamp > self._stamp:
-            interval = plots.stamp - self._stamp
-            self._intervals = np.append(self._intervals, interval)[-_INTERVALS:]
-        self._stamp = plots.stamp
+            span = np.array([[first, last]]) - plots.stamp
+            self._spans = np.concatenate([self._spans, span])[-_AGREEING:]
+        earlier = self._stamps[self._stamps < plots.stamp]
+        self._stamps = np.append(earlier, plots.stamp)[-STAMPS:]
         if beam is None:
             self._learn(plots.time, azimuth)
         else:
@@ -135,26 +133,28 @@ class Antenna:
         """
         period = TWO_PI / abs(self._rate)
         length = period if self._collects else min(self._interval, period)
-        if length and len(self._first):
-            first, last = np.sort(self._first), np.sort(self._last)
+        if length and len(self._spans):
+            first, last = np.sort(self._spans, axis=0).T
             earliest, latest = first[(len(first) - 1) // 2], last[len(last) // 2]
             self._reach = float(max(min(self._reach, earliest / length + 1.0), latest / length))
         start = plots.stamp + (self._reach - 1.0) * length
         return start, start + (part or length)
 
     def _sweep(self, start: float, end: float) -> Sweep:
-        last, self._start, self._end = self._end, start, end
+        last, self._end = self._end, end
         if self._rate == 0.0:
             return Sweep(start, end)
         period = TWO_PI / abs(self._rate)
         contiguous = (
             bool(abs(start - last) < _LATE * period)
             if self._full_turns
-            else (0.0 <= end - last < 0.75 * period)
+            else 0.0 <= end - last < 0.75 * period
         )
         if contiguous:
             start = min(last, end)
-        return Sweep(start, end, self._phase_at(start), self._rate * (end - start), contiguous)
+        else:
+            self._watched = start
+        return Sweep(start, end, self._phase_at(start), self._rate * (end - start), self._watched)
 
     def _phase_at(self, time: float) -> float:
         """Return where the antenna pointed at this time [rad]."""

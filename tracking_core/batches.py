@@ -105,7 +105,7 @@ class Coverage:
     end_time: float  # [s]
     start_azimuth: float = 0.0  # tracking axes [rad]
     sweep: float = 0.0  # signed, anticlockwise positive [rad]
-    contiguous: bool = False  # goes on where the previous scan ended
+    watched_since: float = np.inf  # scans follow each other since then [s]; inf: this is the first
     sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # tracking frame [m]
     sensor_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)  # at the middle of it [m/s]
     range_min: float = 0.0  # [m]

@@ -58,8 +58,9 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
         lag = coverage.end_time - _travel(azimuth(lag), coverage) / abs(rate) - time
     margin = LARGEST_MARGIN * period
     # A pass may have waited for its neighbours; longer ago than that it was lost.
-    waited = (LONGEST_WAIT + LARGEST_MARGIN) * period if coverage.contiguous else 0.0
-    earliest = np.maximum(0.5 * period, coverage.start_time - waited - time)
+    waiting_since = coverage.start_time - (LONGEST_WAIT + LARGEST_MARGIN) * period
+    since = min(max(waiting_since, coverage.watched_since), coverage.start_time)
+    earliest = np.maximum(0.5 * period, since - time)
     turns = np.ceil((earliest - lag) / period - 1e-9)
     passed = lag + turns * period
     # A turn later the contact is elsewhere, by more than its gate if it is fast and near.

@@ -89,3 +89,13 @@ def test_pause_amid_a_collected_turn_ends_no_track(lost):
     follow(radar, range(begin + lost, begin + lost + 3 * SECTORS))
     assert radar.tracks.id.tolist() == before
     assert radar.tracks.misses.max() <= 1
+
+
+@pytest.mark.parametrize('lost', [7, 8, 12, 20])
+def test_nobody_is_missed_during_a_pause(lost):
+    """Neither by the first sector after it nor by the second, which may look back a little."""
+    radar = session(**{'scan.assembly': 'sector'})
+    begin = SECTORS * 10 + 3
+    follow(radar, range(begin))
+    misses = follow(radar, range(begin + lost, begin + lost + 3))
+    assert misses == dict.fromkeys(radar.tracks.id.tolist(), 0)

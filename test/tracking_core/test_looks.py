@@ -18,7 +18,7 @@ PERIOD = 4.0
 
 def turn(start: float, sense: float, azimuth: float = 0.5 * np.pi) -> Coverage:
     """One full turn from an azimuth on."""
-    return Coverage(start, start + PERIOD, azimuth, sense * 2.0 * np.pi, contiguous=True)
+    return Coverage(start, start + PERIOD, azimuth, sense * 2.0 * np.pi, watched_since=-np.inf)
 
 
 @pytest.mark.parametrize('sense', [1.0, -1.0])
@@ -59,6 +59,19 @@ def test_next_looks_come_once_a_turn(sense: float) -> None:
                     passes.append(time[0])
         assert len(passes) >= 19
         assert_allclose(np.diff(passes), PERIOD, atol=1e-9)
+
+
+@pytest.mark.parametrize('sense', [1.0, -1.0])
+def test_next_looks_see_nothing_of_before_a_gap(sense: float) -> None:
+    """Of contacts all around: those passed since the gap, and in the last part of a turn."""
+    azimuth = 2.0 * np.pi * (np.arange(40) + 0.5) / 40.0
+    position = 1e4 * np.column_stack([np.cos(azimuth), np.sin(azimuth)])
+    for back in (0.0, 0.3, 1.0, np.inf):
+        coverage = Coverage(100.0, 100.4, 0.5 * np.pi, sense * 0.2 * np.pi, 100.0 - back * PERIOD)
+        looks = next_looks(position, np.zeros((40, 2)), np.full(40, 95.0), coverage)
+        passed = looks.time[looks.time <= coverage.end_time]
+        assert passed.min() >= coverage.start_time - min(back, 0.375) * PERIOD - 1e-6
+        assert len(passed) == round(40.0 * (0.1 + min(back, 0.375)))
 
 
 def test_next_looks_of_a_staring_sensor_are_in_the_middle() -> None:
