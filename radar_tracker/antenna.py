@@ -9,13 +9,12 @@ time of the plots tell rate, direction and phase. They are learnt once, then fol
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from radar_tracker.gaps import STAMPS
+from radar_tracker.gaps import is_missing, STAMPS
 from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, TWO_PI
-from tracking_core.batches import Floats, Plots
+from radar_tracker.sweep import Beam, Sweep
+from tracking_core.batches import Floats, NO_GAPS, Plots
 
 ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
@@ -24,28 +23,8 @@ _INTERVALS = 5  # between messages, remembered
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _LONGEST = 2.0  # messages or turns that a plot may be off the stamp of its message
 _AGREEING = 3  # messages that tell from when to when they reach; the middle one is believed
+_LEAST = 1e-3  # of a turn that a message sweeps; nothing would be a look everywhere at once
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
-
-
-@dataclass(frozen=True)
-class Sweep:
-    """What one message swept: the antenna turned by `angle` from `start_azimuth`."""
-
-    start_time: float  # [s]
-    end_time: float  # [s]
-    start_azimuth: float = 0.0  # sensor axes [rad]
-    angle: float = 0.0  # signed [rad]; 0: a look everywhere at once
-    watched_since: float = np.inf  # goes on since then without a gap [s]; inf: is the first
-
-
-@dataclass(frozen=True)
-class Beam:
-    """Where the antenna points, where that is known otherwise than from the plots' times."""
-
-    time: float  # [s]
-    azimuth: float  # at this time, sensor axes [rad]
-    rate: float  # anticlockwise positive [rad/s]
-    end_time: float  # of the sector [s]
 
 
 class Antenna:
@@ -67,8 +46,8 @@ class Antenna:
         self._spans = np.zeros((0, 2))  # of plots, after the last stamps [s]
         self._rate = 0.0  # [rad/s], 0: not known
         self._time, self._azimuth = np.zeros(0), np.zeros(0)
-        self._stamps, self._end = np.zeros(0), np.nan  # of the last messages [s]
-        self._watched = -np.inf  # without a gap since then [s]
+        self._stamps, self._end = np.zeros(0), -np.inf  # of the last messages [s]
+        self._gaps = NO_GAPS
         self._tries = 0
         self._stares = stares  # told so, or plots of one moment came from different directions
 
@@ -148,13 +127,14 @@ class Antenna:
         contiguous = (
             bool(abs(start - last) < _LATE * period)
             if self._full_turns
-            else 0.0 <= end - last < 0.75 * period
+            else 0.0 <= end - last < 0.75 * period and not is_missing(self._stamps, period)
         )
         if contiguous:
             start = min(last, end)
-        else:
-            self._watched = start
-        return Sweep(start, end, self._phase_at(start), self._rate * (end - start), self._watched)
+        elif start > last:
+            self._gaps = (*self._gaps[1:], (last, start))
+        end = self._end = max(end, start + _LEAST * period)
+        return Sweep(start, end, self._phase_at(start), self._rate * (end - start), self._gaps)
 
     def _phase_at(self, time: float) -> float:
         """Return where the antenna pointed at this time [rad]."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from radar_tracker.antenna import Sweep
 from radar_tracker.config import MountConfig, SensorConfig
+from radar_tracker.sweep import Sweep
 from tracking_core.batches import Coverage, Floats, Plots
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform_pose import PlatformPose
@@ -118,7 +118,7 @@ def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Cover
         end_time=sweep.end_time,
         start_azimuth=sweep.start_azimuth + float(heading[0]),
         sweep=sweep.angle + yawed if sweep.angle else 0.0,
-        watched_since=sweep.watched_since,
+        gaps=sweep.gaps,
         sensor_position=(float(x), float(y), float(z)),
         range_min=sensor.range_min,
         range_max=sensor.range_max,

@@ -15,9 +15,10 @@ import math
 import numpy as np
 
 from msg_adapters.bad_message import BadMessage
-from radar_tracker.antenna import Beam, ONE_DIRECTION
+from radar_tracker.antenna import ONE_DIRECTION
 from radar_tracker.config import ScanConfig
 from radar_tracker.rotation import PERIODS, TWO_PI
+from radar_tracker.sweep import Beam
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import wrap_angle
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from radar_tracker.antenna import Antenna, Beam
+from radar_tracker.antenna import Antenna
 from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import azimuth_of, farthest
@@ -18,6 +18,7 @@ from radar_tracker.mounting import coverage_of, PlatformDoubt
 from radar_tracker.rotation import TWO_PI
 from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
+from radar_tracker.sweep import Beam
 from radar_tracker.turns import Turns
 from tracking_core.batches import Coverage, Floats, Plots, State, Tracks
 from tracking_core.platform import Platform, pose_at
@@ -29,8 +30,7 @@ class RadarTracker:
     """
     Tracks of one radar.
 
-    What the parameters leave open (2-D or 3-D, polar or Cartesian, rotation of the antenna) is
-    learnt from the first plots.
+    What the parameters leave open (dimensions, coordinates, rotation) is learnt from the plots.
     """
 
     def __init__(self, config: RadarTrackerConfig) -> None:
@@ -155,7 +155,7 @@ class RadarTracker:
         """
         self._recognise(plots)
         turns, rate = self.turns, self.antenna.rotation_rate
-        collected = turns.add(plots, rate) if turns is not None else plots
+        collected = turns.add(plots, rate) if turns else plots
         if collected is None:
             return self.tracks
         pose = pose_at(platform, collected.time)

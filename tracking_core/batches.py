@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
+Gaps = tuple[tuple[float, float], ...]  # from when to when nobody looked [s], the last ones
+NO_GAPS: Gaps = 8 * ((-np.inf, -np.inf),)
 
 
 @dataclass(frozen=True)
@@ -105,7 +107,7 @@ class Coverage:
     end_time: float  # [s]
     start_azimuth: float = 0.0  # tracking axes [rad]
     sweep: float = 0.0  # signed, anticlockwise positive [rad]
-    watched_since: float = np.inf  # scans follow each other since then [s]; inf: this is the first
+    gaps: Gaps = NO_GAPS  # during which the sensor was not followed
     sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # tracking frame [m]
     sensor_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)  # at the middle of it [m/s]
     range_min: float = 0.0  # [m]

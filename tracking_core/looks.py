@@ -57,17 +57,32 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
     for _ in range(2):  # the contact moves while the antenna turns
         lag = coverage.end_time - _travel(azimuth(lag), coverage) / abs(rate) - time
     margin = LARGEST_MARGIN * period
-    # A pass may have waited for its neighbours; longer ago than that it was lost.
-    waiting_since = coverage.start_time - (LONGEST_WAIT + LARGEST_MARGIN) * period
-    since = min(max(waiting_since, coverage.watched_since), coverage.start_time)
-    earliest = np.maximum(0.5 * period, since - time)
-    turns = np.ceil((earliest - lag) / period - 1e-9)
-    passed = lag + turns * period
+    passed = _first_pass(lag, time, period, coverage)
     # A turn later the contact is elsewhere, by more than its gate if it is fast and near.
     antenna = coverage.start_azimuth + rate * (passed + (time - coverage.start_time))
     passed = passed + wrap_angle(azimuth(passed) - antenna) / rate
     passed = time + np.maximum(passed, 0.5 * period)
     return Looks(passed, passed - margin < coverage.end_time)
+
+
+def _first_pass(lag: Floats, time: Floats, period: float, coverage: Coverage) -> Floats:
+    """Return when after `time` (T,) the antenna passes first [s], if in turns from `lag` (T,)."""
+
+    def after(earliest: Floats) -> Floats:
+        return np.asarray(lag + np.ceil((earliest - lag) / period - 1e-9) * period)
+
+    # A pass may have waited for its neighbours; longer ago than that it was lost.
+    since = coverage.start_time - (LONGEST_WAIT + LARGEST_MARGIN) * period
+    recent = []
+    for begin, end in coverage.gaps[::-1]:
+        if end > since:
+            since -= end - begin
+            recent.append((begin, end))
+    passed = after(np.maximum(0.5 * period, since - time))
+    for begin, end in recent[::-1]:
+        in_gap = (time + passed > begin) & (time + passed < end)
+        passed = np.where(in_gap, after(end - time), passed)
+    return passed
 
 
 def _travel(azimuth: Floats, coverage: Coverage) -> Floats:

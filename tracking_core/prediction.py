@@ -69,11 +69,12 @@ def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]
     """
     Return whether the antenna has passed a living track once more in the same message.
 
-    The next pass may also have begun only: then its plots (M,) must wait, they are the other
-    thing returned.
+    A sector does so only after a gap: the first pass was before it. The next pass may also have
+    begun only: then its plots (M,) must wait, they are the other thing returned.
     """
     waiting = np.zeros(len(scan), bool)
-    if abs(scan.coverage.sweep) < np.pi:
+    is_after_gap = scan.coverage.gaps[-1][1] == scan.coverage.start_time
+    if abs(scan.coverage.sweep) < np.pi and not is_after_gap:
         return False, waiting
     motion = (*_level_motion(updated), updated.time, updated.gate_size[:, :2])
     rows = lives.nonzero()[0]

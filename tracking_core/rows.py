@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 Batch = TypeVar('Batch')
 
-_PLAIN = ('float', 'int', 'bool', 'str', 'tuple[float, float, float]')  # as annotated
+_PLAIN = ('float', 'int', 'bool', 'str', 'tuple[float, float, float]', 'Gaps')  # as annotated
 
 
 def take(batch: Batch, rows: NDArray[Any] | slice) -> Batch:

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.testing import assert_allclose
 import pytest
 
-from radar_tracker.antenna import Antenna, Sweep
+from radar_tracker.antenna import Antenna
+from radar_tracker.sweep import Sweep
 from studies.scenes import messages
 from tracking_core.batches import Plots
 from tracking_tools.scenarios import Contact, Legs, Scenario, SimulatedRadar
@@ -61,7 +62,7 @@ def test_follow_says_where_the_antenna_points(sectors: int) -> None:
     plots = sensed(4.0, 'clockwise', 10, sectors)
     sweeps = follow(antenna, plots)
     for before, sweep, message in list(zip(sweeps, sweeps[1:], plots[1:], strict=False))[-5:]:
-        assert sweep.watched_since <= before.start_time
+        assert sweep.gaps[-1][1] <= before.start_time
         assert sweep.start_time == before.end_time
         rate = sweep.angle / (sweep.end_time - sweep.start_time)
         off = message.azimuth - sweep.start_azimuth - rate * (message.time - sweep.start_time)
@@ -110,9 +111,9 @@ def test_follow_takes_empty_messages() -> None:
     follow(antenna, plots)
     sweep = antenna.follow(replace(nothing, stamp=32.0), nothing.azimuth)
     assert sweep.angle == pytest.approx(2.0 * np.pi, rel=0.01)
-    assert sweep.watched_since < sweep.start_time
+    assert sweep.gaps[-1][1] < sweep.start_time
     gap = antenna.follow(replace(nothing, stamp=60.0), nothing.azimuth)
-    assert gap.watched_since == gap.start_time == 60.0
+    assert gap.gaps[-1] == (sweep.end_time, gap.start_time)
 
 
 @pytest.mark.parametrize(('reference', 'ahead'), [('start', 4.0), ('middle', 2.0), ('end', 0.0)])

@@ -27,15 +27,15 @@ def session(**values):
     return radar_session(config, radar_node_config(), TYPES, logging.getLogger('gaps'))
 
 
-def sector(number, azimuth=AZIMUTH):
-    """Return the plots of one sector, which has the stamp of its beginning."""
+def sector(number, gone=0):
+    """Return the plots of one sector, stamped at its beginning; the first contacts are gone."""
     begin = 2.0 * np.pi * (number % SECTORS) / SECTORS
-    ahead = (azimuth - begin) % (2.0 * np.pi)
-    seen = ahead < 2.0 * np.pi / SECTORS
+    ahead = (AZIMUTH - begin) % (2.0 * np.pi)
+    seen = (ahead < 2.0 * np.pi / SECTORS) & (np.arange(len(AZIMUTH)) >= gone)
     rng, count = np.random.default_rng(number), int(seen.sum())
     columns = {
-        'range': np.linspace(1e4, 4e4, len(azimuth))[seen] + rng.normal(0.0, 30.0, count),
-        'azimuth': azimuth[seen] + rng.normal(0.0, 1e-3, count),
+        'range': np.linspace(1e4, 4e4, len(AZIMUTH))[seen] + rng.normal(0.0, 30.0, count),
+        'azimuth': AZIMUTH[seen] + rng.normal(0.0, 1e-3, count),
         'time': ahead[seen] / (2.0 * np.pi) * PERIOD,
     }
     return from_columns(columns, 1000.0 + STEP * number, 'radar', TYPES)
@@ -91,11 +91,43 @@ def test_pause_amid_a_collected_turn_ends_no_track(lost):
     assert radar.tracks.misses.max() <= 1
 
 
-@pytest.mark.parametrize('lost', [7, 8, 12, 20])
-def test_nobody_is_missed_during_a_pause(lost):
-    """Neither by the first sector after it nor by the second, which may look back a little."""
+@pytest.mark.parametrize('lost', [1, 2, 4, 6, 7, 8, 12, 20])
+def test_nobody_is_missed_in_sectors_that_are_lost(lost):
+    """Neither by the first sector after them nor by the second, which looks back a little."""
     radar = session(**{'scan.assembly': 'sector'})
     begin = SECTORS * 10 + 3
     follow(radar, range(begin))
     misses = follow(radar, range(begin + lost, begin + lost + 3))
     assert misses == dict.fromkeys(radar.tracks.id.tolist(), 0)
+
+
+@pytest.mark.parametrize('lost', [2, 20])
+def test_sector_without_plots_after_a_gap_is_no_look_everywhere(lost):
+    """What it swept nobody knows, but no more than a sector."""
+    radar = session(**{'scan.assembly': 'sector'})
+    begin = SECTORS * 10 + 3
+    follow(radar, range(begin))
+    empty = from_columns(
+        {'range': np.zeros(0), 'azimuth': np.zeros(0)},
+        1000.0 + STEP * (begin + lost),
+        'radar',
+        TYPES,
+    )
+    radar.plots(empty, STEP * (begin + lost))
+    assert (radar.tracks.misses == 0).all()
+
+
+def test_contacts_that_are_gone_are_missed_where_empty_sectors_are_not_sent():
+    """A sector that is silent for the second time is empty, not lost; so it costs one turn."""
+    ended = []
+    for is_sent in (True, False):
+        radar, number = session(**{'scan.assembly': 'sector'}), SECTORS * 10
+        follow(radar, range(number))
+        assert radar.tracks.confirmed.sum() == len(AZIMUTH)
+        while len(radar.tracks) > len(AZIMUTH) - 3:  # nobody is left in the first sector
+            if is_sent or number % SECTORS:
+                radar.plots(sector(number, gone=3), STEP * number)
+            number += 1
+        assert (radar.tracks.misses == 0).all()
+        ended.append(number)
+    assert ended[1] <= ended[0] + SECTORS

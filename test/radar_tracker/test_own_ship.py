@@ -293,20 +293,3 @@ def test_point_to_track_is_judged_from_own_ship():
         acquire(radar, SimpleNamespace(header=TYPES.header(1001.0, 'odom'), point=point))
     assert len(radar.tracks) == 1
     assert radar.counts['acquire'].refused['bad point'] == 1
-
-
-@pytest.mark.parametrize('has_own_ship', [False, True])
-def test_stamps_at_the_end_of_a_turn_need_no_parameter_where_plots_tell_times(has_own_ship):
-    """Contacts at rest are all held, and no message asks where own ship will be."""
-    log = logging.getLogger('stamps')
-    radar = radar_session(RadarTrackerConfig(), radar_node_config(), TYPES, log)
-    part = np.array([0.05, 0.15, 0.3, 0.45, 0.7, 0.8, 0.9, 0.95])
-    columns = {'time': 4.0 * (part - 1.0), 'range': np.full(8, 2e4), 'azimuth': 6.2832 * part}
-    for end in np.arange(1004.0, 1084.0, 4.0):
-        for time in np.arange(end - 4.0, end, 0.5) if has_own_ship else []:
-            radar.ownship(odometry(time, (0.0, 0.0), 0.0), time)
-        radar.plots(from_columns(columns, end, 'radar', TYPES), end)
-        assert (radar.tracks.misses == 0).all()
-    assert radar.tracks.id.tolist() == list(range(1, 9))
-    assert radar.tracks.confirmed.all()
-    assert not radar.counts['plots'].refused

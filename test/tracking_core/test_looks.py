@@ -18,7 +18,7 @@ PERIOD = 4.0
 
 def turn(start: float, sense: float, azimuth: float = 0.5 * np.pi) -> Coverage:
     """One full turn from an azimuth on."""
-    return Coverage(start, start + PERIOD, azimuth, sense * 2.0 * np.pi, watched_since=-np.inf)
+    return Coverage(start, start + PERIOD, azimuth, sense * 2.0 * np.pi)
 
 
 @pytest.mark.parametrize('sense', [1.0, -1.0])
@@ -62,16 +62,28 @@ def test_next_looks_come_once_a_turn(sense: float) -> None:
 
 
 @pytest.mark.parametrize('sense', [1.0, -1.0])
-def test_next_looks_see_nothing_of_before_a_gap(sense: float) -> None:
-    """Of contacts all around: those passed since the gap, and in the last part of a turn."""
-    azimuth = 2.0 * np.pi * (np.arange(40) + 0.5) / 40.0
+@pytest.mark.parametrize(
+    ('gaps', 'watched'),
+    [
+        ([], [(98.5, 100.4)]),
+        ([(90.0, 94.0)], [(98.5, 100.4)]),
+        ([(99.0, 100.0)], [(97.5, 99.0), (100.0, 100.4)]),
+        ([(98.0, 98.5), (99.0, 100.0)], [(97.0, 98.0), (98.5, 99.0), (100.0, 100.4)]),
+        ([(-np.inf, 100.0)], [(100.0, 100.4)]),
+    ],
+)
+def test_next_looks_see_nothing_of_a_gap(
+    sense: float, gaps: list[tuple[float, float]], watched: list[tuple[float, float]]
+) -> None:
+    """Of contacts all around: those passed in the last 3/8 of a turn that was no gap, and now."""
+    azimuth = 2.0 * np.pi * (np.arange(80) + 0.5) / 80.0
     position = 1e4 * np.column_stack([np.cos(azimuth), np.sin(azimuth)])
-    for back in (0.0, 0.3, 1.0, np.inf):
-        coverage = Coverage(100.0, 100.4, 0.5 * np.pi, sense * 0.2 * np.pi, 100.0 - back * PERIOD)
-        looks = next_looks(position, np.zeros((40, 2)), np.full(40, 95.0), coverage)
-        passed = looks.time[looks.time <= coverage.end_time]
-        assert passed.min() >= coverage.start_time - min(back, 0.375) * PERIOD - 1e-6
-        assert len(passed) == round(40.0 * (0.1 + min(back, 0.375)))
+    sweep = sense * 0.2 * np.pi
+    coverage = Coverage(100.0, 100.4, 0.0, sweep, tuple(gaps))
+    looks = next_looks(position, np.zeros((80, 2)), np.full(80, 95.0), coverage)
+    passed = looks.time[looks.time <= coverage.end_time]
+    inside = [(passed >= begin) & (passed <= end) for begin, end in watched]
+    assert len(passed) == np.sum(inside) == round(sum(20.0 * (e - b) for b, e in watched))
 
 
 def test_next_looks_of_a_staring_sensor_are_in_the_middle() -> None:
