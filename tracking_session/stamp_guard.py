@@ -5,13 +5,14 @@ Which stamps can be right.
 
 One bad stamp must never hurt a track, and a clock that moved must not stop the node. A stamp out
 of all proportion is refused; only when several in a row agree with each other has the clock truly
-moved, and tracking starts anew. A recording shorter than that proportion is known by its beginning
-when it is played again.
+moved, and tracking starts anew. A recording shorter than that proportion is known by its first two
+stamps when it is played again.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import inf
 
 from msg_adapters.bad_message import BadMessage
 
@@ -98,8 +99,7 @@ class StampGuard:
             self._take(stamp, received)
             return False
         is_near = -self.threshold <= step <= 0.0
-        is_first_again = step < 0.0 and self._oldest is not None and stamp <= self._oldest
-        if is_near and not is_first_again:
+        if is_near and not (step < 0.0 and self._begins_again(stamp)):
             raise BadMessage(
                 'stamp not newer',
                 f'header.stamp {stamp:.3f} is not after the last one, {self._newest:.3f}',
@@ -125,6 +125,19 @@ class StampGuard:
             self._interval = stamp - self._newest  # a gap that silence explains is none
         self._newest, self._received = stamp, received
         self._strangers, self._moved = [], False
+
+    def _begins_again(self, stamp: float) -> bool:
+        """Return whether this stamp follows one that is no newer than the very first."""
+        if self._oldest is None:
+            return False
+        begin = self._strangers[-1] if self._strangers else inf
+        if begin <= self._oldest and begin < stamp:
+            self._strangers = [begin, stamp]
+            return True
+        if stamp <= self._oldest:
+            self._strangers = [stamp]
+            return self._moved
+        return False
 
     def _believe(self, stamp: float) -> bool:
         """Return whether enough strange stamps agree with each other."""

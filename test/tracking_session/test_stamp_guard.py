@@ -97,13 +97,33 @@ def test_clock_that_says_so_is_believed_at_once():
 
 @pytest.mark.parametrize('first', [0.0, -0.5, -1.0])
 def test_recording_shorter_than_the_threshold_may_be_played_again(first):
-    """No stamp is as old as its first one: it begins anew at once, in every round."""
+    """No stamp is as old as its first one: it begins anew with the second, in every round."""
     guard = StampGuard(10.0)
     later = [float(stamp) for stamp in range(1, 9)]
     for played_before in (False, True, True):
-        begin = ['reset' if played_before else 'used']
-        assert feed(guard, [100.0 + first, *np.add(100.0, later)]) == begin + ['used'] * 8
+        begin = ['stamp not newer', 'reset'] if played_before else ['used', 'used']
+        assert feed(guard, [100.0 + first, *np.add(100.0, later)]) == begin + ['used'] * 7
     assert guard.jumps == 2
+
+
+def test_first_stamp_is_believed_at_once_where_the_clock_went_back_too():
+    """However short the recording is."""
+    guard = StampGuard(10.0)
+    feed(guard, [100.0, 101.0, 102.0])
+    guard.clock_moved()
+    assert feed(guard, [100.0, 101.0]) == ['reset', 'used']
+
+
+@pytest.mark.parametrize('stale', [100.0, 98.0, 95.0])
+def test_one_message_from_before_the_first_is_refused(stale):
+    """Sent late or twice, and however often: only one that follows it can be a new beginning."""
+    guard = StampGuard(10.0)
+    feed(guard, [100.0, 101.0, 102.0])
+    refused = 'stamp not newer'
+    assert feed(guard, [stale, 103.0, stale, stale, 103.0, 104.0]) == [
+        refused, 'used', refused, refused, refused, 'used',
+    ]  # fmt: skip
+    assert guard.jumps == 0
 
 
 def test_stamp_before_the_newest_but_not_the_first_is_none_to_begin_anew_with():
