@@ -18,6 +18,7 @@ from tracking_core.rows import change, take, take_rows
 from tracking_core.space import POINTS, Space
 
 _MOST_PAIRS = 1_000_000  # of plots looked at; the last seeds go without
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # part of a whole that meets no place twice
 _NOISE_SIGMAS = 3.0  # by how much of the plots' noise the speed limit is widened
 
 
@@ -113,14 +114,31 @@ def two_point(
     evidence = np.bincount(old, likely, len(seeds)) - detection_probability
     prior = share_of_new(density.existence, np.asarray(evidence), seeds.free) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]
-    faint_starts = math.ceil(config.faint_starts * coverage.part_of_look)
-    keep = _worth_a_track(existence, least_existence, leniency, faint_starts)
+    most_faint = share_of_faint(config.faint_starts, coverage)
+    keep = _worth_a_track(existence, least_existence, leniency, most_faint)
     starts = _starts(
         take_rows(seeds.covariance, old[keep]), take_rows(fresh.covariance, new[keep]),
         take_rows(fresh.position, new[keep]), take_rows(step, keep), dt[keep], existence[keep],
         new[keep],
     )  # fmt: skip
     return change(starts, leniency=leniency)
+
+
+def share_of_faint(faint_starts: int, coverage: Coverage) -> int:
+    """
+    Return how many of the faint starts of a look this scan may have.
+
+    Sectors have a whole number each, so that a turn has them all however many sectors it is cut
+    into. Where they are few, other sectors have them in each turn.
+    """
+    part = coverage.part_of_look
+    if part > 0.5 or coverage.rotation_rate == 0.0:
+        return math.ceil(faint_starts * part)
+    turn_time = 2.0 ** round(-math.log2(abs(coverage.rotation_rate) / (2.0 * np.pi)))  # roughly
+    turn = math.floor(coverage.start_time / turn_time)
+    begin = math.copysign(1.0, coverage.sweep) * coverage.start_azimuth
+    before = faint_starts * begin / (2.0 * np.pi) + _GOLDEN * turn
+    return math.floor(before + faint_starts * part) - math.floor(before)
 
 
 def _worth_a_track(existence: Floats, least: float, leniency: float, most: int) -> Ints:

@@ -14,8 +14,9 @@ from scipy.stats import multivariate_normal
 from tracking_core.batches import Coverage, Seeds
 from tracking_core.birth import with_speed_prior
 from tracking_core.composition import Density
-from tracking_core.initiation import one_point, plane_start, Starts, two_point
+from tracking_core.initiation import one_point, plane_start, share_of_faint, Starts, two_point
 from tracking_core.lifecycle_config import InitiationConfig
+from tracking_core.linalg import wrap_angle
 from tracking_core.new_contacts import Odds, share_of_new, velocity_covariance
 
 INTERVAL = 4.0
@@ -149,6 +150,45 @@ def test_two_point_keeps_the_climb_limit_at_each_plot_s_own_time() -> None:
     seeds = plots(0.0, [[0.0, 0.0, 0.0], [5e3, 0.0, 0.0]], variance=1.0)
     fresh = plots([2.5, 4.0], [[0.0, 0.0, 65.0], [5e3, 0.0, 65.0]], variance=1.0)
     assert_array_equal(start(seeds, fresh).plot, [1])
+
+
+@pytest.mark.parametrize('sense', [1.0, -1.0])
+@pytest.mark.parametrize('sectors', [3, 8, 32, 100, 128, 720])
+def test_share_of_faint_is_right_over_a_turn_and_fair_over_many(
+    sectors: int, sense: float
+) -> None:
+    """However a turn is cut it has 30; where they are fewer than sectors, each has its turn."""
+    angle, begin = 2.0 * np.pi / sectors, 1.7e9
+    shares = np.array([
+        share_of_faint(30, Coverage(
+            begin + k * 4.0 / sectors, begin + (k + 1) * 4.0 / sectors,
+            float(wrap_angle(np.array(1.0 + sense * k * angle))), sense * angle,
+        ))
+        for k in range(100 * sectors)
+    ]).reshape(100, sectors)  # fmt: skip
+    assert_allclose(shares.sum(axis=1), 30, atol=2)
+    assert shares.sum() == pytest.approx(3000, rel=0.01)
+    assert_allclose(shares.mean(axis=0), 30.0 / sectors, atol=0.05)
+    assert shares.min() >= 0
+
+
+def test_share_of_faint_of_a_look_everywhere_is_all() -> None:
+    """Of a full turn, too."""
+    assert share_of_faint(30, Coverage(0.0, 4.0)) == 30
+    assert share_of_faint(30, Coverage(0.0, 4.0, 1.0, -6.28)) == 30
+
+
+@pytest.mark.parametrize('sectors', [8, 32, 128])
+def test_two_point_starts_as_many_faint_tracks_in_sectors_as_in_a_turn(sectors: int) -> None:
+    """Of 400 faint pairs in each sector 30 are followed in all, not one a sector at least."""
+    grid = np.stack(np.meshgrid(np.arange(20), np.arange(20)), axis=-1).reshape(-1, 2) * 5e3
+    seeds, fresh = plots(0.0, grid), plots(4.0, grid + np.arange(400)[:, None])
+    density, count = Density(clutter=2e-7, new_contacts=1e-12), 0
+    for k in range(sectors):
+        ends = 4.0 * (1.0 + np.array([k, k + 1]) / sectors)
+        sector = Coverage(*ends, 2.0 * np.pi * k / sectors, 2.0 * np.pi / sectors)
+        count += len(two_point(seeds, fresh, density, sector, 4.0, 0.9, 0.01, LIMITS).plot)
+    assert count == pytest.approx(30, abs=2)
 
 
 def test_two_point_takes_nothing() -> None:
