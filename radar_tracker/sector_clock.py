@@ -126,8 +126,9 @@ class SectorClock:
         """How long sectors last [s], those that were lost aside; 0 before the second one."""
         if not len(self._steps):
             return 0.0
-        short = np.quantile(self._steps, 0.2)
-        return float(self._steps[np.abs(self._steps - short) <= 0.3 * short].mean())
+        short = float(np.quantile(self._steps, 0.2))
+        near = self._steps[np.abs(self._steps - short) <= 0.3 * short]
+        return float(near.mean()) if len(near) else short
 
     def _follow(self, stamp: float) -> None:
         """Turn to the sector with this stamp."""
