@@ -121,30 +121,28 @@ def turn(number, off=0.0):
     return from_columns(columns, 1000.0 + PERIOD * number, 'radar', TYPES)
 
 
+def around(off, turns):
+    """Return the ledger, and the tracks before a wrong time and so many turns after it."""
+    radar = session()
+    tables = [radar.plots(turn(number, off * (number == 12)), 0.0) for number in range(13 + turns)]
+    before, after = (to_columns(tables[number], 10_000) for number in (11, -1))
+    return radar.ledger, before, after
+
+
 @pytest.mark.parametrize('off', [-50.0, -20.0, -10.0, 7.0, 20.0, 50.0])
 def test_one_wrong_time_does_not_stop_the_antenna(off):
     """Nobody else is missed for it, though the antenna cannot have turned on for so long."""
-    radar = session()
-    for number in range(12):
-        before = to_columns(radar.plots(turn(number), 0.0), 10_000)
-    radar.plots(turn(12, off), 0.0)
-    for number in range(13, 15):
-        after = to_columns(radar.plots(turn(number), 0.0), 10_000)
+    ledger, before, after = around(off, 2)
     assert after['id'].tolist() == before['id'].tolist()
     gained = after['hits'] - before['hits']
     assert gained.tolist() == [3, 3, 2, 3, 3]
-    assert radar.ledger.counts['plots'].dropped == {'time more than 8 s off the stamp': 1}
+    assert ledger.counts['plots'].dropped == {'time more than 8 s off the stamp': 1}
 
 
 @pytest.mark.parametrize('off', [-5.0, -3.0, 3.0, 5.0])
 def test_wrong_time_within_a_turn_or_two_costs_no_id(off):
     """Such a time could be true; what it says of the antenna is soon outvoted."""
-    radar = session()
-    for number in range(12):
-        before = to_columns(radar.plots(turn(number), 0.0), 10_000)
-    radar.plots(turn(12, off), 0.0)
-    for number in range(13, 19):
-        after = to_columns(radar.plots(turn(number), 0.0), 10_000)
+    _, before, after = around(off, 6)
     assert after['id'].tolist() == before['id'].tolist()
     assert (after['hits'] - before['hits'] >= 5).all()
 
