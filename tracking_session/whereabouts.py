@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from msg_adapters.row_checks import MAX_OFFSET
 from tracking_core.batches import Floats
 from tracking_core.platform import Platform
 from tracking_session.frames import TrackingFrame
@@ -13,7 +14,6 @@ from tracking_session.leap_guard import LeapGuard
 from tracking_session.node_config import NodeConfig
 from tracking_session.stamp_guard import StampGuard
 
-KEPT = 60.0  # s of own ship's path, at any rate: a slow antenna's turn and some late ones
 NEAREST = 0.007  # s between two samples that are kept; odometry up to 125 Hz is kept whole
 
 
@@ -74,7 +74,7 @@ class Whereabouts:
         if has_jumped or has_leapt:
             self.platform = Platform.empty(self._config.ownship_timeout)
         if not (sample.time - self.platform.time[-1:] < NEAREST).any():
-            self.platform = self.platform.add(sample, span=KEPT)
+            self.platform = self.platform.add(sample, span=MAX_OFFSET)
         return has_leapt
 
     def covering(self, times: Floats, frame: TrackingFrame) -> Platform | None:

@@ -5,9 +5,10 @@
 import numpy as np
 import pytest
 
+from msg_adapters.row_checks import MAX_OFFSET
 from radar_tracker.node_config import radar_node_config
 from tracking_core.platform import Platform
-from tracking_session.whereabouts import KEPT, Whereabouts
+from tracking_session.whereabouts import Whereabouts
 
 SPEED = 10.0  # m/s
 
@@ -37,8 +38,8 @@ def test_path_of_fast_odometry_covers_a_slow_turn(rate) -> None:
 
 def test_path_of_fast_odometry_is_bounded() -> None:
     """A minute is kept, not more."""
-    path = sailed(125.0, KEPT + 10.0)
-    assert path.time[-1] - path.time[0] == pytest.approx(KEPT, abs=0.01)
+    path = sailed(125.0, MAX_OFFSET + 10.0)
+    assert path.time[-1] - path.time[0] == pytest.approx(MAX_OFFSET, abs=0.01)
 
 
 @pytest.mark.parametrize('rate', [1.0, 10.0, 125.0])
