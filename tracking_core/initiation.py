@@ -128,17 +128,17 @@ def share_of_faint(faint_starts: int, coverage: Coverage) -> int:
     """
     Return how many of the faint starts of a look this scan may have.
 
-    Sectors have a whole number each, so that a turn has them all however many sectors it is cut
-    into. Where they are few, other sectors have them in each turn.
+    They are marks along the turn, evenly apart, and a sector has those that it sweeps over: so a
+    turn has them all, however many sectors it is cut into. In each turn they lie elsewhere, so
+    that no sector goes without for ever.
     """
-    part = coverage.part_of_look
-    if part > 0.5 or coverage.rotation_rate == 0.0:
-        return math.ceil(faint_starts * part)
+    if coverage.rotation_rate == 0.0:
+        return faint_starts
     turn_time = 2.0 ** round(-math.log2(abs(coverage.rotation_rate) / (2.0 * np.pi)))  # roughly
     turn = math.floor(coverage.start_time / turn_time)
     begin = math.copysign(1.0, coverage.sweep) * coverage.start_azimuth
     before = faint_starts * begin / (2.0 * np.pi) + _GOLDEN * turn
-    return math.floor(before + faint_starts * part) - math.floor(before)
+    return math.floor(before + faint_starts * coverage.part_of_look) - math.floor(before)
 
 
 def _worth_a_track(existence: Floats, least: float, leniency: float, most: int) -> Ints:
