@@ -270,7 +270,7 @@
 
   function play(on) {
     state.playing = on;
-    byId('play').textContent = on ? '\u23F8' : '\u25B6';
+    byId('play').textContent = on ? '\u25AE\u25AE' : '\u25B6';
     if (!on) return draw();
     if (state.time >= end) state.time = scans[0];
     let last = performance.now();
