@@ -37,6 +37,10 @@ CASES = (
     ({'initiation.faint_starts': 200}, (600, 1000)),
     ({'lifecycle': 'm_of_n'}, FALSE_PLOTS),
 )
+HEAD = (
+    f'{"set":28}{"false plots":>12}{"look":>14}{"found":>8}{"held":>17}{"false tracks":>17}'
+    f'{"tracks":>8}{"CPU ms":>8}'
+)
 
 
 @dataclass(frozen=True)
@@ -122,8 +126,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description='Contacts among hundreds of false plots.')
     parser.add_argument('--runs', type=int, default=20, help='of five contacts each')
     given = parser.parse_args(arguments)
-    print(f'{"set":28}{"false plots":>12}{"look":>14}{"found":>8}{"held":>17}'
-          f'{"false tracks":>17}{"tracks":>8}{"CPU ms":>8}')  # fmt: skip
+    print(HEAD)
     for values, amounts in CASES:
         name = ' '.join(f'{key}: {value}' for key, value in values.items())
         for false_plots in amounts:

@@ -174,7 +174,7 @@ class RadarTrackerConfig:
     )  # fmt: skip
     clutter_density: float = parameter(
         0.0, unit='1/(m rad), 3-D 1/(m rad^2), Cartesian 1/m^2 or 1/m^3', low=0.0, live=True,
-        doc='false plots of one look per unit of plot space; 0: estimated',
+        doc='false plots of one look per unit of plot space, 0: learnt, place by place',
     )  # fmt: skip
     longest_pause: float = parameter(
         0.0, unit='s', low=0.0, live=True,

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -53,10 +54,10 @@ class Radar:
         """Density of the range rates of false plots [s/m]."""
         return 0.5 / self.config.range_rate_max
 
-    def plot_space_volume(self, range_max: float) -> float:
+    def plot_space_volume(self, range_max: Floats | float) -> Any:
         """Return the volume of plot space out to a range [m]: m rad, m rad^2, m^2 or m^3."""
         c = self.config
-        range_max = max(range_max, c.range_min + _LEAST_DEPTH)
+        range_max = np.maximum(range_max, c.range_min + _LEAST_DEPTH)
         depth = range_max - c.range_min
         height = c.elevation_span if self.dimensions == 3 else 1.0
         if self.is_polar:

@@ -20,9 +20,10 @@ from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
 from radar_tracker.sweep import Beam
 from radar_tracker.turns import Turns
-from tracking_core.batches import Coverage, Floats, Plots, State, Tracks
+from tracking_core.batches import Coverage, Floats, Plots, Tracks
 from tracking_core.platform import Platform, pose_at
 from tracking_core.space import Space
+from tracking_core.state import State
 from tracking_core.tracker import Tracker
 
 
@@ -181,15 +182,11 @@ class RadarTracker:
         self._see(farthest(plots, self.radar.is_polar, self.radar.dimensions))
 
     def _see(self, distance: float) -> None:
-        """
-        Take note how far the radar is known to see.
-
-        It saw so far all the time: the false plots that were counted are of the larger space.
-        """
+        """Take note how far the radar sees, and saw all the time when false plots were counted."""
         before = self.radar.plot_space_volume(self.farthest)
         if distance > self.farthest > 0.0:
             share = before / self.radar.plot_space_volume(distance)
-            self.state = replace(self.state, clutter_density=self.state.clutter_density * share)
+            self.state = replace(self.state, clutter=self.state.clutter.times(share))
         self.farthest = max(self.farthest, distance)
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:

@@ -154,8 +154,9 @@ class SonarTrackerConfig:
         'existence', unit='', choices=tuple(LIFECYCLES), doc='what confirms and deletes tracks'
     )
     clutter_density: float = parameter(
-        0.0, unit='1/rad', low=0.0, live=True, doc='false marks of one cycle; 0: estimated'
-    )
+        0.0, unit='1/rad', low=0.0, live=True,
+        doc='false marks of one cycle; 0: learnt, bearing by bearing',
+    )  # fmt: skip
     longest_pause: float = parameter(
         0.0, unit='s', low=0.0, live=True,
         doc='after a pause that is longer, tracks end, since nobody knows who is who: set several '

@@ -52,6 +52,10 @@ class Sonar:
             sd = self.config.bearing_sd * self._blur(position - self._axis(coverage))
         return np.asarray(sd[:, :, None] ** 2 + self.heading_sd**2)
 
+    def plot_space_volume(self, range_max: Floats) -> Floats:
+        """Return the sector (K,) [rad], which is at no distance, for distances (K,) above 0."""
+        return np.where(range_max > 0.0, self.config.sector_width, 0.0)
+
     def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
         """Return 1 (T,): plots are bearings already."""
         return np.ones(len(position))

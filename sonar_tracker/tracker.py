@@ -14,12 +14,13 @@ from sonar_tracker.build import build_setup
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.ranging import RangeEstimates, Ranging
 from sonar_tracker.sensor import Sonar
-from tracking_core.batches import Bearings, Coverage, Floats, State, Tracks
+from tracking_core.batches import Bearings, Coverage, Floats, Tracks
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
 from tracking_core.platform_pose import PlatformPose
 from tracking_core.rows import take
 from tracking_core.space import Space
+from tracking_core.state import State
 from tracking_core.tracker import Tracker
 
 

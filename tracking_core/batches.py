@@ -10,7 +10,7 @@ comment says otherwise. Read ``tracker.py`` next: what becomes of one scan.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
@@ -265,38 +265,7 @@ class Seeds:
     covariance: Floats  # (S, d, d)
     free: Floats  # (S,) chance that no known contact made the plot
     clutter_volume: Floats  # (S,) plot space in a unit of position space at the plot
+    relief: Floats  # (S,) clutter density there over its mean
 
     def __len__(self) -> int:
         return len(self.time)
-
-
-@dataclass(frozen=True)
-class StepReport:
-    """What the last step did, for diagnostics."""
-
-    plots: int = 0  # used in this step
-    held: int = 0  # kept for the next scan: their antenna pass is not over
-    pairs: int = 0
-    approximate: int = 0  # tracks in clusters too large for exact marginals
-    started: int = 0
-    merged: int = 0
-    refused: int = 0  # new tracks that did not fit in max_tracks
-    broken: int = 0  # tracks dropped because a covariance was not positive definite
-    silent: int = 0  # tracks and first plots that nobody looked at for too long (longest_pause)
-    clutter_density: float = 0.0  # per unit of plot space, as used
-    deleted: Ints = field(default_factory=lambda: np.zeros(0, np.int64))  # (D,) ids
-
-
-@dataclass(frozen=True)
-class State:
-    """All that a tracker remembers; saving it saves the tracker."""
-
-    tracks: Tracks
-    seeds: Seeds
-    held: Scan | None = None  # plots whose antenna pass was not over
-    next_id: int = 1
-    clutter_density: float = 0.0  # estimate so far, per unit of plot space
-    clutter_looks: float = 0.0  # full looks that the estimate is from
-    leniency: float = 1.0  # tentative tracks may be so much less likely than usual
-    time: float = -np.inf  # end of the last scan [s]
-    report: StepReport = field(default_factory=StepReport)

@@ -4,14 +4,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from tracking_core.association.clusters import renumber
-from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, State, Tracks
-from tracking_core.composition import Density, Setup
+from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, Tracks
+from tracking_core.composition import Setup
+from tracking_core.density import Density
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
 from tracking_core.linalg import inverse, sum_by_track, symmetrise
 from tracking_core.rows import change, concatenate, take
+from tracking_core.state import State
 from tracking_core.unresolved.resolution import Resolution, within_limit
 from tracking_core.unresolved.sets import places_of
 from tracking_core.update import Look
@@ -20,9 +24,19 @@ _CLAIMED = 0.5  # a plot more likely than this from a known contact starts no ot
 _SURE = 1.0 - 1e-9  # no start is surer: the others of a plot may still be the right one
 
 
+@dataclass(frozen=True)
+class Born:
+    """What a scan of M plots gave birth to."""
+
+    tracks: Tracks  # tentative, the likeliest first
+    seeds: Seeds  # plots that may start a track with a later one
+    used: Floats  # (M,) chance of each plot that a new track explains it
+    leniency: float  # tentative tracks may be so much less likely than usual
+
+
 def start_tracks(
     scan: Scan, seen: Look, density: Density, interval: float, setup: Setup, state: State
-) -> tuple[Tracks, Seeds, float, float]:
+) -> Born:
     """
     Start tracks from the plots that no track claims.
 
@@ -39,27 +53,17 @@ def start_tracks(
     setup, state
         Of the tracker.
 
-    Returns
-    -------
-    born : Tracks
-        Tentative tracks, the likeliest first.
-    seeds : Seeds
-        Plots that may start a track with a later one.
-    used : float
-        Plots that the new tracks explain.
-    leniency : float
-        Tentative tracks may be so much less likely than usual.
-
     """
     free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
     if setup.resolution is not None:
         free &= ~_hidden(scan, seen, setup, setup.resolution)
     plots = Seeds(
-        scan.time, scan.position, scan.covariance, 1.0 - seen.claimed, scan.clutter_volume
-    )
+        scan.time, scan.position, scan.covariance, 1.0 - seen.claimed, scan.clutter_volume,
+        np.ones(len(scan)) * density.at_plots,
+    )  # fmt: skip
     fresh = take(plots, free)
     if setup.initiation.method == 'one_point':
-        starts = one_point(fresh, density.existence, setup.initiation)
+        starts = one_point(fresh, density.existence(fresh.relief), setup.initiation)
     else:
         starts = two_point(
             state.seeds, fresh, density, scan.coverage, interval,
@@ -68,15 +72,16 @@ def start_tracks(
         )  # fmt: skip
         starts = with_speed_prior(starts, setup.initiation.speed_sd)
         starts = one_a_plot(starts, len(fresh))
-    used = np.minimum(np.bincount(starts.plot, starts.existence_probability, len(fresh)), 1.0)
+    used = np.zeros(len(scan))
+    used[free] = np.bincount(starts.plot, starts.existence_probability, len(fresh)).clip(max=1.0)
     age = scan.coverage.end_time - state.seeds.time
     young = take(state.seeds, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
-    left = change(fresh, free=fresh.free * (1.0 - used))
+    left = change(fresh, free=fresh.free * (1.0 - used[free]))
     if len(starts.plot):
         born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)
     else:
         born = take(seen.tracks, slice(0))
-    return born, concatenate(young, left), float(used.sum()), starts.leniency
+    return Born(born, concatenate(young, left), used, starts.leniency)
 
 
 def _hidden(scan: Scan, seen: Look, setup: Setup, resolution: Resolution) -> Bools:

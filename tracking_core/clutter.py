@@ -4,9 +4,53 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+from tracking_core.batches import Bools, Floats, Scan
+from tracking_core.clutter_map import cells, ClutterMap, looks_at_spokes
+from tracking_core.sensing import Sensor
+
 _MEMORY = 10.0  # looks over which the estimate is averaged
 _LEAST_PLOTS = 0.5  # false plots of a look that are assumed at least: none seen is not none ever
 _JUMP, _JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
+
+
+@dataclass(frozen=True)
+class Clutter:
+    """What has been learnt of false plots."""
+
+    map: ClutterMap  # where they are
+    density: float = 0.0  # mean over the coverage, per unit of plot space; 0: not known yet
+    looks: float = 0.0  # full looks that it is from
+
+    def learn(self, scan: Scan, unexplained: Floats, counted: Bools, sensor: Sensor) -> Clutter:
+        """
+        Return what is known after one more scan.
+
+        Parameters
+        ----------
+        scan : Scan
+            M plots.
+        unexplained : (M,) array
+            Chance of each that no track made it.
+        counted : (M,) array
+            The others wait for the next scan.
+        sensor : Sensor
+            Whose plots they are.
+
+        """
+        coverage, plots = scan.coverage, unexplained[counted]
+        density, looks = estimate_density(
+            self.density, self.looks, float(plots.sum()), scan.volume, coverage.part_of_look
+        )
+        looks_now = looks_at_spokes(coverage)
+        cell = cells(sensor.space, coverage.sensor_position, scan.position[counted])
+        clutter_map = self.map.add(cell, plots, looks_now, coverage.part_of_look)
+        return Clutter(clutter_map, density, looks)
+
+    def times(self, factor: float) -> Clutter:
+        """Return the same plots in a larger space, or a smaller one."""
+        return Clutter(self.map, self.density * factor, self.looks)
 
 
 def estimate_density(

@@ -72,22 +72,3 @@ class Setup:
         """Return the same for another state of the sensor: filters keep what they worked out."""
         rule = self.resolution and replace(self.resolution, sensor=sensor)
         return replace(self, sensor=sensor, resolution=rule)
-
-
-@dataclass(frozen=True)
-class Density:
-    """Sources of plots other than known contacts, per unit of plot space and look."""
-
-    clutter: float
-    new_contacts: float
-    leniency: float = 1.0  # tentative tracks may be so much less likely than usual
-
-    @property
-    def total(self) -> float:
-        """Density of all plots that no known contact makes."""
-        return self.clutter + self.new_contacts
-
-    @property
-    def existence(self) -> float:
-        """Chance that a plot of no known contact is from a new one."""
-        return self.new_contacts / self.total

@@ -9,9 +9,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from tracking_core.batches import Floats, Ints, State, Tracks
+from tracking_core.batches import Floats, Ints, Tracks
 from tracking_core.rows import take
 from tracking_core.space import POINTS, Space
+from tracking_core.state import State
 
 _SAME = 9.0  # mean square difference of two states of one contact, in units of their variances
 

@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-import math
 
 import numpy as np
 
 from tracking_core.batches import Coverage, Floats, Ints, Seeds
-from tracking_core.composition import Density
+from tracking_core.density import Density
+from tracking_core.faint_starts import share_of_faint, worth_a_track
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.looks import longest_since
 from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_covariance
@@ -18,7 +18,6 @@ from tracking_core.rows import change, take, take_rows
 from tracking_core.space import POINTS, Space
 
 _MOST_PAIRS = 1_000_000  # of plots looked at; the last seeds go without
-_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # part of a whole that meets no place twice
 _NOISE_SIGMAS = 3.0  # by how much of the plots' noise the speed limit is widened
 
 
@@ -42,7 +41,7 @@ class Starts:
         )
 
 
-def one_point(fresh: Seeds, existence: float, config: InitiationConfig) -> Starts:
+def one_point(fresh: Seeds, existence: Floats | float, config: InitiationConfig) -> Starts:
     """
     Start a track on every plot, at rest, with a velocity prior as wide as the speed limit.
 
@@ -100,7 +99,7 @@ def two_point(
     alone = odds.at_best(seeds, interval)
     leniency = 1.0
     if config.faint_starts:
-        leniency = odds.leniency(alone, seeds.free, least_existence)
+        leniency = odds.leniency(alone, seeds, least_existence)
     most, least = MOST_NEW * seeds.free, least_existence / leniency
     seeds = take(seeds, most * alone >= least * (1.0 - most + most * alone))
 
@@ -112,41 +111,18 @@ def two_point(
     likely = odds.of_plots(fresh)[new] * odds.of_steps(noise, step, dt)
     likely *= (1.0 - detection_probability) ** looks_between
     evidence = np.bincount(old, likely, len(seeds)) - detection_probability
-    prior = share_of_new(density.existence, np.asarray(evidence), seeds.free) * seeds.free
+    usual = density.existence(1.0)
+    thinner = density.existence(seeds.relief) / usual
+    prior = share_of_new(usual, thinner, np.asarray(evidence), seeds.free) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]
-    most_faint = share_of_faint(config.faint_starts, coverage)
-    keep = _worth_a_track(existence, least_existence, leniency, most_faint)
+    most_faint = share_of_faint(config.faint_starts, coverage, density)
+    keep = worth_a_track(existence, least_existence, leniency, most_faint)
     starts = _starts(
         take_rows(seeds.covariance, old[keep]), take_rows(fresh.covariance, new[keep]),
         take_rows(fresh.position, new[keep]), take_rows(step, keep), dt[keep], existence[keep],
         new[keep],
     )  # fmt: skip
     return change(starts, leniency=leniency)
-
-
-def share_of_faint(faint_starts: int, coverage: Coverage) -> int:
-    """
-    Return how many of the faint starts of a look this scan may have.
-
-    They are marks along the turn, evenly apart, and a sector has those that it sweeps over: so a
-    turn has them all, however many sectors it is cut into. In each turn they lie elsewhere, so
-    that no sector goes without for ever.
-    """
-    if coverage.rotation_rate == 0.0:
-        return faint_starts
-    turn_time = 2.0 ** round(-math.log2(abs(coverage.rotation_rate) / (2.0 * np.pi)))  # roughly
-    turn = math.floor(coverage.start_time / turn_time)
-    begin = math.copysign(1.0, coverage.sweep) * coverage.start_azimuth
-    before = faint_starts * begin / (2.0 * np.pi) + _GOLDEN * turn
-    return math.floor(before + faint_starts * coverage.part_of_look) - math.floor(before)
-
-
-def _worth_a_track(existence: Floats, least: float, leniency: float, most: int) -> Ints:
-    """Return the pairs (K,) that are likely enough, and the likeliest of the faint ones."""
-    keep = existence >= least
-    faint = ((existence >= least / leniency) & ~keep).nonzero()[0]
-    keep[faint[np.argsort(-existence[faint], kind='stable')[:most]]] = True
-    return keep.nonzero()[0]
 
 
 def _within_reach(

@@ -11,7 +11,7 @@ import numpy as np
 
 from tracking_core.batches import Floats, Seeds
 from tracking_core.chances import TINY
-from tracking_core.composition import Density
+from tracking_core.density import Density
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import determinant, inverse
 
@@ -22,19 +22,23 @@ _MOST_LENIENT = 1000.0  # in clutter that is denser still nothing can be followe
 _TRUST = 200.0  # plots that the expected share of new contacts counts for
 
 
-def share_of_new(expected: float, evidence: Floats, free: Floats) -> float:
+def share_of_new(expected: float, likely: Floats, evidence: Floats, free: Floats) -> Floats:
     """
-    Return which share of the unclaimed plots new contacts made.
+    Return which share of the unclaimed plots (S,) new contacts made.
+
+    It is `expected` where the clutter is as dense as on the mean, `likely` (S,) times that in
+    thinner or denser clutter.
 
     The expected share is what the parameters say of contacts that come one by one. After a start,
     or when a whole formation appears, it is far too small, and the pairs themselves tell: a few
     steps of expectation and maximisation, held back by the expectation for want of evidence.
     """
-    share, one, both = expected, free * (1.0 + evidence), free * evidence
+    one, both = likely * free * (1.0 + evidence), likely * free * evidence
+    share, plots = expected, float(likely.sum())
     for _ in range(_STEPS):
         real = share * float((one / (1.0 + share * both)).sum())
-        share = min((_TRUST * expected + real) / (_TRUST + len(free)), MOST_NEW)
-    return share
+        share = min((_TRUST * expected + real) / (_TRUST + plots), MOST_NEW)
+    return np.minimum(share * likely, MOST_NEW)
 
 
 @dataclass(frozen=True)
@@ -50,24 +54,23 @@ class Odds:
         spread = self._spread(2.0 * seeds.covariance, dt)
         return self.of_plots(seeds) * _peak(determinant(spread), spread.shape[1])
 
-    def leniency(self, at_best: Floats, free: Floats, least: float) -> float:
+    def leniency(self, at_best: Floats, seeds: Seeds, least: float) -> float:
         """
         Return how much less likely than `least` new tracks may be, 1: not at all.
 
         In dense clutter two plots of a contact prove little; were they held to what is usual, no
-        contact would ever be followed. `at_best` (S,) are the odds of the seeds, `free` (S,) the
-        chances that no known contact made them.
+        contact would ever be followed. `at_best` (S,) are the odds of the seeds.
         """
         if len(at_best) == 0:
             return 1.0
-        both = self.density.existence * free * at_best
+        both = self.density.existence(seeds.relief) * seeds.free * at_best
         middle = len(both) // 2
         usual = np.partition(both / (1.0 + both), middle)[middle]
         return float(np.clip(least / max(_FAINTER * usual, TINY), 1.0, _MOST_LENIENT))
 
     def of_plots(self, plots: Seeds) -> Floats:
         """Return P_D over the density of other plots (M,), of plots that may be a contact's."""
-        others = np.maximum(self.density.total * plots.clutter_volume, TINY)
+        others = np.maximum(self.density.total(plots.relief) * plots.clutter_volume, TINY)
         return np.asarray(self.detection_probability * plots.free / others)
 
     def of_steps(self, noise: Floats, step: Floats, dt: Floats) -> Floats:

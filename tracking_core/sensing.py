@@ -37,6 +37,10 @@ class Sensor(Protocol):
         """Return the plot covariance (T, d, d) expected at positions (T, d)."""
         ...
 
+    def plot_space_volume(self, range_max: Floats) -> Floats:
+        """Return the plot space nearer than these distances (K,) [m]."""
+        ...
+
     def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
         """Return the plot space in a unit of position space at positions (T, d)."""
         ...

@@ -12,7 +12,8 @@ from scipy.special import expit
 from tracking_core.association.partitions import has_alternatives, over_partitions
 from tracking_core.batches import Association, Bools, Floats, Scan
 from tracking_core.chances import log, TINY
-from tracking_core.composition import Density, Setup
+from tracking_core.composition import Setup
+from tracking_core.density import Density
 from tracking_core.lifecycle import existence_after
 from tracking_core.linalg import sum_by_track
 from tracking_core.pairing import Gated
@@ -100,7 +101,7 @@ def _share_in_common(
     """
     T, own, plots = len(log_miss), gated.common < 0, len(scan)
     P_D = 1.0 - (1.0 - setup.sensor.detection_probability) ** common.size
-    other = density.total * scan.clutter_volume[common.plot]
+    other = _strange(scan, density)[common.plot]
     shared_weight = np.log(P_D[common.unit]) + common.log_likelihood - np.log(other)
     miss = np.concatenate([log_miss, np.log1p(-P_D[T:] * setup.gate_probability)])
     unit = np.concatenate([gated.pairs.track[own], common.unit])
@@ -146,8 +147,13 @@ def _is_heard(gated: Gated, common: Common) -> Bools:
 def _other_sources(gated: Gated, scan: Scan, setup: Setup, density: Density) -> Floats:
     """Return the density of other plots at each pair's plot (P,), in the plot's own space."""
     plot = gated.pairs.plot
-    other = density.total * scan.clutter_volume[plot]
+    other = _strange(scan, density)[plot]
     has_range_rate = np.isfinite(scan.range_rate[plot])
     if not has_range_rate.any():
         return np.asarray(other)
     return np.where(has_range_rate, other * setup.sensor.range_rate_density, other)
+
+
+def _strange(scan: Scan, density: Density) -> Floats:
+    """Return the density (M,) at the plots of those of no known contact, per unit of position."""
+    return density.total(density.at_plots) * scan.clutter_volume

@@ -5,16 +5,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
+
+import numpy as np
 
 from tracking_core.batches import Floats, Ints
 from tracking_core.gating import box_pairs, MOST_PAIRS, sector_pairs
 from tracking_core.linalg import nearest_turn, wrap_angle
 from tracking_core.rows import take_rows
 
+Point = tuple[float, float, float]
+
 
 class Space(Protocol):
     """Where plots and tracks are, and how near they are to each other there."""
+
+    has_range: ClassVar[bool]  # places are at a distance from the sensor
 
     def find_pairs(
         self, centre: Floats, half_size: Floats, plots: Floats, most: int = MOST_PAIRS
@@ -30,6 +36,10 @@ class Space(Protocol):
         """Return the ways (..., n) between places or states, the short way round."""
         ...
 
+    def seen_from(self, origin: Point, place: Floats) -> tuple[Floats, Floats]:
+        """Return distance (K,) [m], 0 without one, and azimuth (K,) [rad] of places (K, d)."""
+        ...
+
     def comparable(self, mean: Floats, covariance: Floats) -> tuple[Floats, Floats]:
         """Return that part of states (T, n) that plots soon tell of."""
         ...
@@ -38,6 +48,8 @@ class Space(Protocol):
 @dataclass(frozen=True)
 class Points:
     """A space without end [m]."""
+
+    has_range: ClassVar[bool] = True
 
     def find_pairs(
         self, centre: Floats, half_size: Floats, plots: Floats, most: int = MOST_PAIRS
@@ -53,6 +65,11 @@ class Points:
         """Return the ways: they are straight."""
         return way
 
+    def seen_from(self, origin: Point, place: Floats) -> tuple[Floats, Floats]:
+        """Return distance over the ground and azimuth."""
+        x, y = place[:, 0] - origin[0], place[:, 1] - origin[1]
+        return np.hypot(x, y), np.arctan2(y, x)
+
     def comparable(self, mean: Floats, covariance: Floats) -> tuple[Floats, Floats]:
         """Return all."""
         return mean, covariance
@@ -61,6 +78,8 @@ class Points:
 @dataclass(frozen=True)
 class Angles:
     """A circle; the first coordinate of a state is the angle, the second its rate [rad]."""
+
+    has_range: ClassVar[bool] = False
 
     def find_pairs(
         self, centre: Floats, half_size: Floats, plots: Floats, most: int = MOST_PAIRS
@@ -77,6 +96,10 @@ class Angles:
         short = way.copy('K')
         short[..., 0] = wrap_angle(way[..., 0])
         return short
+
+    def seen_from(self, origin: Point, place: Floats) -> tuple[Floats, Floats]:
+        """Return no distance, and the angles."""
+        return np.zeros(len(place)), place[:, 0]
 
     def comparable(self, mean: Floats, covariance: Floats) -> tuple[Floats, Floats]:
         """Return angle and rate: what else there is, a range, bearings hardly tell."""

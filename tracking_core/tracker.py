@@ -13,14 +13,17 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from tracking_core.batches import Coverage, Floats, Ints, Scan, Seeds, State, StepReport, Tracks
+from tracking_core.batches import Coverage, Floats, Ints, Scan, Seeds, Tracks
 from tracking_core.birth import new_tracks, start_tracks
-from tracking_core.clutter import estimate_density
-from tracking_core.composition import Density, Setup
+from tracking_core.clutter import Clutter
+from tracking_core.clutter_map import ClutterMap
+from tracking_core.composition import Setup
+from tracking_core.density import Density, expected_density
 from tracking_core.heap import keep_freed_memory
 from tracking_core.initiation import one_point, Starts
 from tracking_core.merging import end_doubles
 from tracking_core.rows import concatenate, take
+from tracking_core.state import State, StepReport
 from tracking_core.update import Look, look
 
 FULL_TURN = 2.0 * np.pi
@@ -42,11 +45,13 @@ class Tracker:
         """Forget all; ids go on, unless the next one is given."""
         d = self.setup.sensor.dimensions
         nothing = Starts.none(d)
-        seeds = Seeds(np.zeros(0), np.zeros((0, d)), np.zeros((0, d, d)), np.zeros(0), np.zeros(0))
+        none = np.zeros(0)
+        seeds = Seeds(none, np.zeros((0, d)), np.zeros((0, d, d)), none, none, none)
         first = self.state.next_id if next_id is None else next_id
         self.state = State(
             new_tracks(nothing, seeds.time, self.setup, first, Coverage(0.0, 0.0)),
             seeds,
+            Clutter(ClutterMap.blank(self.setup.sensor.space)),
             next_id=first,
         )
 
@@ -80,14 +85,16 @@ class Tracker:
         interval = _interval(scan, state)
         density = self._density(state, scan, interval)
         seen = self._look(state.tracks, scan, density)
-        born, seeds, used, leniency = start_tracks(
-            scan, seen, density, interval, self.setup, state
-        )
+        born = start_tracks(scan, seen, density, interval, self.setup, state)
 
         kept, merged = self._without_doubles(seen)
         room = max(self.setup.max_tracks - len(kept), 0)
-        fitting = born if len(born) <= room else take(born, slice(0, room))
-        clutter, looks = self._clutter(state, scan, seen, used)
+        started = born.tracks
+        fitting = started if len(started) <= room else take(started, slice(0, room))
+        clutter = state.clutter
+        if not self.setup.clutter_density:
+            unexplained = ((1.0 - seen.claimed).clip(0.0) - born.used).clip(0.0)
+            clutter = clutter.learn(scan, unexplained, ~seen.waiting, self.setup.sensor)
         report = StepReport(
             plots=len(scan),
             held=int(seen.waiting.sum()),
@@ -95,20 +102,20 @@ class Tracker:
             approximate=seen.approximate,
             started=len(fitting),
             merged=len(merged),
-            refused=len(born) - len(fitting),
+            refused=len(started) - len(fitting),
             broken=seen.broken,
             clutter_density=density.clutter,
+            densest_clutter=density.clutter * float(born.seeds.relief.max(initial=1.0)),
             silent=len(silent) + len(self.state.seeds) - len(state.seeds),
             deleted=np.concatenate([silent, seen.ended, merged]),
         )
         self.state = State(
             tracks=concatenate(kept, fitting) if len(fitting) else kept,
-            seeds=seeds,
+            seeds=born.seeds,
             held=take(scan, seen.waiting) if seen.waiting.any() else None,
             next_id=state.next_id + len(fitting),
-            clutter_density=clutter,
-            clutter_looks=looks,
-            leniency=leniency,
+            clutter=clutter,
+            leniency=born.leniency,
             time=max(scan.coverage.end_time, state.time),
             report=report,
         )
@@ -130,7 +137,8 @@ class Tracker:
         """
         coverage = coverage or Coverage(time, time)
         noise = self.setup.sensor.noise(position[None], coverage)
-        seed = Seeds(np.array([time]), position[None], np.asarray(noise), np.ones(1), np.ones(1))
+        one = np.ones(1)
+        seed = Seeds(np.array([time]), position[None], np.asarray(noise), one, one, one)
         starts = one_point(seed, 1.0, self.setup.initiation)
         born = new_tracks(starts, seed.time, self.setup, self.state.next_id, coverage)
         born = replace(born, confirmed=np.ones(1, bool))
@@ -173,18 +181,10 @@ class Tracker:
 
     def _density(self, state: State, scan: Scan, interval: float) -> Density:
         """Return the sources of other plots, per unit of plot space and look."""
-        volume = scan.volume
-        clutter = self.setup.clutter_density or state.clutter_density
-        if clutter == 0.0:
-            clutter, _ = estimate_density(0.0, 0.0, len(scan), volume, 1.0)
-        return Density(clutter, self.setup.arrival_rate * interval / volume, state.leniency)
-
-    def _clutter(self, state: State, scan: Scan, seen: Look, used: float) -> tuple[float, float]:
-        """Return the estimate of the clutter density, and from how many looks it is."""
-        unexplained = float((1.0 - seen.claimed[~seen.waiting]).clip(0.0).sum()) - used
-        return estimate_density(
-            state.clutter_density, state.clutter_looks, max(unexplained, 0.0), scan.volume,
-            scan.coverage.part_of_look,
+        setup = self.setup
+        return expected_density(
+            state.clutter, setup.clutter_density, setup.arrival_rate * interval, scan,
+            setup.sensor, state.leniency,
         )  # fmt: skip
 
 

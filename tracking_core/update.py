@@ -11,7 +11,8 @@ import numpy as np
 from tracking_core.association.clusters import clusters
 from tracking_core.batches import Bools, Floats, Ints, Scan, Tracks
 from tracking_core.chances import TINY
-from tracking_core.composition import Density, Setup
+from tracking_core.composition import Setup
+from tracking_core.density import Density
 from tracking_core.lifecycle import count_looks, has_left
 from tracking_core.linalg import is_positive_definite, sum_by_track
 from tracking_core.looks import LONGEST_WAIT
@@ -89,7 +90,8 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     existence = predicted.tracks.existence_probability
     share = share_plots(existence, predicted.detection, gated, scan, setup, density, common)
     updated, ended, broken = _update(predicted, gated, share, scan, setup, density.leniency)
-    ended |= predicted.crowd * density.total > _LOST  # it follows nobody any more
+    strange = density.total(density.relief(predicted.gates.centre))
+    ended |= predicted.crowd * strange > _LOST  # it follows nobody any more
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
     lives = due & ~(ended | broken)

@@ -94,6 +94,7 @@ class Health:
             f'{topic} used': report.plots,
             f'{topic} held': report.held,
             'clutter density': report.clutter_density,
+            'clutter density, densest': report.densest_clutter,
             'step time [s]': self.step_time,
             'step CPU [s]': self.step_cpu,
             'latency [s]': self.latency,

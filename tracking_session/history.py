@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 
 from msg_adapters.bad_message import BadMessage
-from tracking_core.batches import State, Tracks
+from tracking_core.batches import Tracks
 from tracking_core.identity import keep_ids
 from tracking_core.platform import Platform, StalePlatform
+from tracking_core.state import State
 from tracking_session.frames import TrackingFrame
 from tracking_session.instrument import Instrument
 

@@ -10,9 +10,10 @@ from typing import Any, Protocol
 from msg_adapters.bodies import Bodies
 from msg_adapters.reading import Reading
 from tracking_core.assembly import TrackerConfig
-from tracking_core.batches import Floats, State, Tracks
+from tracking_core.batches import Floats, Tracks
 from tracking_core.platform import Platform
 from tracking_core.space import Space
+from tracking_core.state import State
 from tracking_session.axes import Warn
 from tracking_session.frames import TrackingFrame
 

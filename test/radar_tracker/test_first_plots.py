@@ -51,7 +51,7 @@ def test_plot_at_the_least_range_is_a_plot():
     tracker = tracker_of(sensor__range_min=100.0)
     for number in range(3):
         tracker.track(scan(number, [100.0], [1.0]))
-    assert np.isfinite(tracker.state.clutter_density)
+    assert np.isfinite(tracker.state.clutter.density)
 
 
 def test_ordered_track_outlives_the_first_plots():

@@ -13,8 +13,8 @@ from benchmarks.existence_calibration import CASES, EDGES, play, Rows
 
 @pytest.fixture(scope='module', params=[CASES[0], CASES[1]], ids=lambda case: case.name)
 def rows(request) -> Rows:
-    """Births, deaths, misses and false plots as the parameters say; 15 scenes of 40 looks."""
-    return play(request.param, scenes=15, looks=40, seed=1)
+    """Births, deaths, misses and false plots as the parameters say; 20 scenes of 40 looks."""
+    return play(request.param, scenes=20, looks=40, seed=1)
 
 
 def test_existence_of_nine_in_ten_is_true(rows: Rows) -> None:

@@ -13,8 +13,9 @@ from scipy.stats import multivariate_normal
 
 from tracking_core.batches import Coverage, Seeds
 from tracking_core.birth import with_speed_prior
-from tracking_core.composition import Density
-from tracking_core.initiation import one_point, plane_start, share_of_faint, Starts, two_point
+from tracking_core.density import Density
+from tracking_core.faint_starts import share_of_faint
+from tracking_core.initiation import one_point, plane_start, Starts, two_point
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import wrap_angle
 from tracking_core.new_contacts import Odds, share_of_new, velocity_covariance
@@ -36,6 +37,7 @@ def plots(time, position, free=1.0, variance=400.0) -> Seeds:
         covariance=covariance,
         free=np.full(K, free),
         clutter_volume=np.ones(K),
+        relief=np.ones(K),
     )
 
 
@@ -101,7 +103,8 @@ def test_two_point_existence_equals_bayes() -> None:
     spread = 2.0 * old.covariance[0] + 300.0**2 / 4.0 * 4.0**2 * np.eye(2)
     second = multivariate_normal(np.zeros(2), spread).pdf(new.position)
     likely = 0.9 * second / 4e-7
-    contact = 0.8 * share_of_new(0.25, np.array([likely.sum() - 0.9]), old.free)
+    evidence = np.array([likely.sum() - 0.9])
+    contact = 0.8 * share_of_new(0.25, np.ones(1), evidence, old.free)[0]
     weights = np.array([*(contact * likely), contact * 0.1, 1.0 - contact])
     assert_array_equal(starts.plot, [0, 1, 2])
     assert_allclose(starts.existence_probability, (weights / weights.sum())[:3], rtol=1e-12)
@@ -163,7 +166,7 @@ def test_share_of_faint_is_right_over_a_turn_and_fair_over_many(
         share_of_faint(30, Coverage(
             begin + k * 4.0 / sectors, begin + (k + 1) * 4.0 / sectors,
             float(wrap_angle(np.array(1.0 + sense * k * angle))), sense * angle,
-        ))
+        ), THIN)
         for k in range(100 * sectors)
     ]).reshape(100, sectors)  # fmt: skip
     assert_allclose(shares.sum(axis=1), 30, atol=2)
@@ -174,8 +177,8 @@ def test_share_of_faint_is_right_over_a_turn_and_fair_over_many(
 
 def test_share_of_faint_of_a_look_everywhere_is_all() -> None:
     """Of a full turn, too."""
-    assert share_of_faint(30, Coverage(0.0, 4.0)) == 30
-    assert share_of_faint(30, Coverage(0.0, 4.0, 1.0, -6.28)) == 30
+    assert share_of_faint(30, Coverage(0.0, 4.0), THIN) == 30
+    assert share_of_faint(30, Coverage(0.0, 4.0, 1.0, -6.28), THIN) == 30
 
 
 @pytest.mark.parametrize('sectors', [8, 32, 128])

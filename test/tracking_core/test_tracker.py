@@ -159,7 +159,7 @@ def test_tracker_leaves_the_clutter_estimate_near_the_truth() -> None:
     tracker, seen = followed(plots[:10], clutter_density=0.0), []
     for message in plots[10:]:
         tracker.track(message)
-        seen.append(tracker.state.clutter_density)
+        seen.append(tracker.state.clutter.density)
     truth = 40.0 / (39_500.0 * 2.0 * np.pi)
     assert np.mean(seen) == pytest.approx(truth, rel=0.1)
 

@@ -14,8 +14,8 @@ from sonar_tracker.build import build_setup
 from sonar_tracker.config import SensorConfig, SonarTrackerConfig
 from sonar_tracker.sensor import Sonar
 from tracking_core.batches import Bearings, Coverage, Mixture, Scan, Tracks
-from tracking_core.composition import Density
 from tracking_core.config import with_values
+from tracking_core.density import Density
 from tracking_core.platform import pose_at
 from tracking_core.space import ANGLES, POINTS, Space
 from tracking_core.unresolved.grouping import group_tracks, Links

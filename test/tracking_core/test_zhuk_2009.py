@@ -13,7 +13,7 @@ from studies.passes import measure, run, Step, two_point_start
 from studies.z0 import CONTACTS, figures, paper_planes, PERIOD, play, SD, SEED
 from studies.zhuk_2009 import CLAIMS
 from tracking_core.batches import Coverage, Seeds
-from tracking_core.composition import Density
+from tracking_core.density import Density
 from tracking_core.initiation import plane_start, two_point
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_tools.scenarios.studies import z0_path
@@ -82,6 +82,7 @@ def test_two_point_start_is_the_one_of_the_tracker(measured) -> None:
             covariance=measured.covariance[k],
             free=np.ones(1),
             clutter_volume=np.ones(1),
+            relief=np.ones(1),
         )
         for k in (0, 1)
     )

@@ -28,11 +28,11 @@ class Log:
 
 @pytest.fixture(scope='module')
 def drawings(cut_bag, messages):
-    """Return the MarkerArray after each of 40 turns, with the ids of the tracks at that time."""
+    """Return the MarkerArray after each of 120 turns, with the ids of the tracks at that time."""
     configs = read_configs(ROOT / 'config' / 'terminal_radar.yaml', {}, RADAR)
     session = RADAR.make_session(*configs, rosbags_types(), Log())
     display, drawn = Display(rosbags_types()), []
-    for time, msg in messages(cut_bag(40), '/plots'):
+    for time, msg in messages(cut_bag(120), '/plots'):
         assert session.plots(msg, time * 1e-9) is not None
         session.instrument.follow()
         ids = set(session.tracks.id.tolist())

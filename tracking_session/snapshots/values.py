@@ -22,14 +22,27 @@ from tracking_core.batches import (
     Plots,
     Scan,
     Seeds,
-    State,
-    StepReport,
     Tracks,
 )  # fmt: skip
+from tracking_core.clutter import Clutter
+from tracking_core.clutter_map import ClutterMap
+from tracking_core.state import State, StepReport
 
 CLASSES = {
     kind.__name__: kind
-    for kind in (Bearings, Coverage, Mixture, Plots, Scan, Seeds, State, StepReport, Tracks)
+    for kind in (
+        Bearings,
+        Clutter,
+        ClutterMap,
+        Coverage,
+        Mixture,
+        Plots,
+        Scan,
+        Seeds,
+        State,
+        StepReport,
+        Tracks,
+    )
 }
 DTYPES = ('|b1', '<i8', '<f8')  # truth, whole numbers, numbers: all that batches have
 

@@ -1,0 +1,125 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Where do false plots come from? Rain, waves and coasts are not everywhere.
+
+Around the sensor are cells about as long as they are wide: spokes by azimuth, cut by rings, seven
+to each doubling of the range. In every cell is counted what no track explains. Read
+``clutter_pattern.py`` next: what the map says of a place.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+import numpy as np
+
+from tracking_core.batches import Bools, Coverage, Floats, Ints
+from tracking_core.space import Point, Space
+
+TURN = 2.0 * np.pi
+SPOKES, RINGS = 64, 128
+SPOKE_EDGES = np.linspace(0.0, TURN, SPOKES + 1)  # [rad]
+RING_EDGES = np.append(0.0, 5.0 * 2.0 ** (np.arange(1.0, RINGS + 1.0) / 7.0))  # [m]
+_MEMORY = 10.0  # looks over which plots are counted
+_FEWEST = 30.0  # plots; fewer make no pattern
+_BLOCK = 8  # cells each way in which a jump is looked for
+_JUMP, _JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
+
+
+@dataclass(frozen=True)
+class ClutterMap:
+    """False plots by cell; a sonar, which measures no range, has one ring."""
+
+    count: Floats  # (A, R) plots in spokes and rings; older ones weigh less
+    looks: Floats  # (A, R) at each cell, likewise
+
+    @staticmethod
+    def blank(space: Space) -> ClutterMap:
+        """Return the map of a sensor that has not looked yet."""
+        nothing = np.zeros((SPOKES, rings_of(space)))
+        return ClutterMap(nothing, nothing)
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether there are too few plots for a pattern."""
+        return bool(self.count.sum() < _FEWEST)
+
+    def add(self, cell: Ints, plots: Floats, looks: Floats, share: float) -> ClutterMap:
+        """
+        Return the map after one more scan.
+
+        Parameters
+        ----------
+        cell : (M,) array
+            Where each plot is, see `cells`.
+        plots : (M,) array
+            Chance of each that no track made it.
+        looks : (A,) array
+            Of the scan at each spoke, see `looks_at_spokes`.
+        share : float
+            Part of a full look that the scan was, in (0, 1].
+
+        """
+        fresh = np.asarray(np.bincount(cell, plots, self.count.size), np.float64)
+        fresh, now = fresh.reshape(self.count.shape), looks[:, None]
+        kept: Floats | float = math.exp(-share / _MEMORY)
+        if _blocks(fresh).max() > _JUMP_PLOTS:  # where rain sets in, the calm before is void
+            usual = self.count * (now / np.maximum(self.looks, 1e-9))
+            kept = np.where(_have_jumped(fresh, usual), 0.0, kept)
+        return ClutterMap(kept * self.count + fresh, kept * self.looks + now)
+
+    def turns_of_clutter(self, azimuth: float) -> float:
+        """Return the clutter from azimuth 0 to this one [rad], 1: that of a whole turn."""
+        passed = np.append(0.0, self.count.sum(axis=1).cumsum())
+        turns, angle = divmod(azimuth, TURN)
+        return turns + float(np.interp(angle, SPOKE_EDGES, passed) / passed[-1])
+
+
+def rings_of(space: Space) -> int:
+    """Return how many rings a map of this space has."""
+    return RINGS if space.has_range else 1
+
+
+def cells(space: Space, origin: Point, position: Floats) -> Ints:
+    """Return the cells (K,) of places (K, d), the sensor being at the origin."""
+    distance, azimuth = space.seen_from(origin, position)
+    spoke = np.floor(azimuth * (SPOKES / TURN)).astype(np.int64) % SPOKES
+    rings = rings_of(space)
+    ring = np.minimum(RING_EDGES.searchsorted(distance, 'right') - 1, rings - 1)
+    return np.asarray(spoke * rings + ring)
+
+
+def looks_at_spokes(coverage: Coverage) -> Floats:
+    """Return how often a scan looked at each spoke (A,), 1: once."""
+    width = coverage.sector_width
+    begin = coverage.sector_centre - 0.5 * width
+    looks = _turns(begin, begin + width)
+    if coverage.sweep:
+        ends = sorted((coverage.start_azimuth, coverage.start_azimuth + coverage.sweep))
+        looks = looks * _turns(*ends)
+    return looks
+
+
+def _turns(begin: float, end: float) -> Floats:
+    """Return how often what turns from one angle to another is in each spoke (A,)."""
+    passed = [
+        (angle // TURN) * SPOKE_EDGES + np.minimum(angle % TURN, SPOKE_EDGES)
+        for angle in (begin, end)
+    ]
+    return np.maximum(np.diff(passed[1] - passed[0]), 0.0) * (SPOKES / TURN)
+
+
+def _have_jumped(plots: Floats, usual: Floats) -> Bools:
+    """Return which cells (A, R) are in a block with far more plots than usual."""
+    jumped = _blocks(plots) > _JUMP * _blocks(usual) + _JUMP_PLOTS
+    rings = plots.shape[1] // jumped.shape[1]
+    return np.asarray(jumped.repeat(_BLOCK, axis=0).repeat(rings, axis=1))
+
+
+def _blocks(values: Floats) -> Floats:
+    """Return the sums over blocks of cells."""
+    A, R = values.shape
+    rings = min(R, _BLOCK)
+    return np.asarray(values.reshape(A // _BLOCK, _BLOCK, R // rings, rings).sum(axis=(1, 3)))
