@@ -21,7 +21,7 @@ from tracking_core.space import Point, Space
 TURN = 2.0 * np.pi
 SPOKES, RINGS = 64, 128
 SPOKE_EDGES = np.linspace(0.0, TURN, SPOKES + 1)  # [rad]
-RING_EDGES = np.append(0.0, 5.0 * 2.0 ** (np.arange(1.0, RINGS + 1.0) / 7.0))  # [m]
+RING_EDGES = np.concatenate([[0.0], 5.0 * 2.0 ** (np.arange(1.0, RINGS) / 7.0), [np.inf]])  # [m]
 _MEMORY = 10.0  # looks over which plots are counted
 _FEWEST = 30.0  # plots; fewer make no pattern
 _BLOCK = 8  # cells each way in which a jump is looked for

@@ -81,3 +81,19 @@ def test_density_that_is_told_is_the_same_everywhere() -> None:
     _, false, share = outcome(30.0, clutter_density=35.0 / space)
     assert false > 5.0
     assert share == 1.0
+
+
+@pytest.mark.parametrize(('nearest', 'farthest'), [(0.0, 3.0), (3e6, 4e6)])
+def test_map_has_room_for_any_radar(nearest: float, farthest: float) -> None:
+    """A toy of three metres, and one that sees satellites only."""
+    values = {'scan.assembly': 'snapshot', 'sensor.range_min': nearest,
+              'sensor.range_max': farthest}  # fmt: skip
+    tracker, rng = (
+        RadarTracker(with_values(RadarTrackerConfig(), values)),
+        np.random.default_rng(1),
+    )
+    for k in range(5):
+        place = rng.uniform([nearest, -np.pi], [farthest, np.pi], (40, 2))
+        tracks = tracker.track(replace(Plots.polar(np.full(40, 4.0 * k), *place.T), stamp=4.0 * k))
+        assert np.isfinite(tracks.existence_probability).all()
+    assert tracker.state.report.densest_clutter >= tracker.state.report.clutter_density > 0.0
