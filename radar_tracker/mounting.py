@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from radar_tracker.config import MountConfig, SensorConfig
+from radar_tracker.sensor_config import MountConfig, SensorConfig
 from radar_tracker.sweep import Sweep
 from tracking_core.batches import Coverage, Floats, Plots
 from tracking_core.linalg import wrap_angle

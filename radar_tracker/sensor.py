@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from radar_tracker import mounting
-from radar_tracker.config import SensorConfig
 from radar_tracker.conversion import linearised, to_cartesian, to_polar
 from radar_tracker.mounting import PlatformDoubt
+from radar_tracker.sensor_config import SensorConfig
 from radar_tracker.told import excess, NOTHING, tell_noise
 from tracking_core.batches import Coverage, Floats, Plots, Scan
 from tracking_core.linalg import wrap_angle

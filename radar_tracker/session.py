@@ -18,9 +18,10 @@ from msg_adapters.plots import to_plots
 from msg_adapters.reading import Reading
 from msg_adapters.tracks import from_tracks, kinematics, to_bodies
 from msg_adapters.trails import Trails
-from radar_tracker.config import MountConfig, RadarTrackerConfig
+from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.memory import recall, remember
 from radar_tracker.mounting import in_sensor_axes
+from radar_tracker.sensor_config import MountConfig
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Floats, Plots, Tracks
 from tracking_core.platform import Platform, pose_at

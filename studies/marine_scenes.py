@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from radar_tracker.config import SensorConfig
 from radar_tracker.conversion import to_polar
 from radar_tracker.sensor import Radar
+from radar_tracker.sensor_config import SensorConfig
 from studies.passes import Measured
 from tracking_core.batches import Coverage, Floats, Plots
 from tracking_core.platform_pose import PlatformPose

@@ -13,8 +13,8 @@ import numpy as np
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.plots import to_plots
 from msg_adapters.table import Columns
-from radar_tracker.config import MountConfig, SensorConfig
 from radar_tracker.mounting import in_sensor_axes, levelled, sensor_pose
+from radar_tracker.sensor_config import MountConfig, SensorConfig
 from tracking_core.batches import Floats, Plots
 from tracking_core.platform import Platform, pose_at
 from tracking_session.frames import TrackingFrame

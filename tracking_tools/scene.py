@@ -16,7 +16,7 @@ from msg_adapters.bad_message import BadMessage
 from msg_adapters.message_types import frame_name, seconds
 from msg_adapters.table import Columns, to_columns
 from msg_adapters.track_rows import CONFIRMED
-from radar_tracker.config import SensorConfig
+from radar_tracker.sensor_config import SensorConfig
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_tools.bags import MAX_ROWS, open_bag, UNREADABLE
 from tracking_tools.own_ship import read_platform

@@ -10,8 +10,9 @@ import pytest
 from msg_adapters.bearings import to_bearings
 from msg_adapters.plots import to_plots
 from msg_adapters.table import from_columns
-from radar_tracker.config import RadarTrackerConfig, SensorConfig
+from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
+from radar_tracker.sensor_config import SensorConfig
 from radar_tracker.session import radar_session
 from sonar_tracker.config import SensorConfig as SonarConfig
 

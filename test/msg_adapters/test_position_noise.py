@@ -15,9 +15,10 @@ from msg_adapters.message_types import rclpy_types
 from msg_adapters.plots import to_plots
 from msg_adapters.position_noise import position_covariance
 from msg_adapters.table import from_columns
-from radar_tracker.config import RadarTrackerConfig, SensorConfig
+from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.sensor import Radar
+from radar_tracker.sensor_config import SensorConfig
 from radar_tracker.session import radar_session
 from tracking_core.batches import Coverage
 from tracking_core.platform import pose_at

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from radar_tracker.config import MountConfig, RadarTrackerConfig, SensorConfig
+from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.mounting import arm_velocity, in_sensor_axes, sensor_pose
 from radar_tracker.sensor import Radar
+from radar_tracker.sensor_config import MountConfig, SensorConfig
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values

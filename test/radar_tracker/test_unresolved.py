@@ -12,8 +12,9 @@ import pytest
 
 from msg_adapters.tracks import kinematics
 from radar_tracker.build import build_setup
-from radar_tracker.config import RadarTrackerConfig, SensorConfig
+from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.sensor import Radar
+from radar_tracker.sensor_config import SensorConfig
 from radar_tracker.tracker import RadarTracker
 from tracking_core.association import JOINT
 from tracking_core.batches import Coverage, Plots

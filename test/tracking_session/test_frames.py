@@ -5,7 +5,8 @@
 import pytest
 
 from msg_adapters.bad_message import BadMessage
-from radar_tracker.config import MountConfig, ScanConfig, SensorConfig
+from radar_tracker.config import ScanConfig
+from radar_tracker.sensor_config import MountConfig, SensorConfig
 from tracking_session.axes import check_axes, check_places
 from tracking_session.frames import TrackingFrame
 

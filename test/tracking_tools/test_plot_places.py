@@ -7,7 +7,7 @@ import pytest
 
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.table import from_columns
-from radar_tracker.config import MountConfig, SensorConfig
+from radar_tracker.sensor_config import MountConfig, SensorConfig
 from tracking_core.platform import Platform
 from tracking_tools.plot_places import PlotPlaces
 from tracking_tools.scene import turn_rate
