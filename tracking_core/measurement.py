@@ -99,6 +99,12 @@ def with_range_rate(
     return _append(measurement, value, row, variance)
 
 
+def with_unknown(measurement: Measurement) -> Measurement:
+    """Append one more component that nothing is known of."""
+    P, _, n = measurement.matrix.shape
+    return _append(measurement, np.full(P, np.nan), np.zeros((P, 1, n)), np.ones(P))
+
+
 def _append(old: Measurement, value: Floats, row: Floats, variance: Floats) -> Measurement:
     P, d = old.value.shape
     covariance = np.zeros((P, d + 1, d + 1))

@@ -137,3 +137,29 @@ def test_chance_of_one_cell_is_that_of_samples() -> None:
     inside = (np.abs(radar(2).separation(one, other, HERE)) < limit).all(axis=1)
     assert 0.1 < inside.mean() < 0.9
     assert chance[0] == pytest.approx(inside.mean(), abs=0.02)
+
+
+@pytest.mark.parametrize('d', [2, 3])
+def test_range_rates_are_used_beside_the_rule(d: int) -> None:
+    """Two within the limit and one elsewhere: radial speeds as good as one look measures them."""
+    rng = np.random.default_rng(5)
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), {
+        **CELL, 'sensor.range_sd': 30.0, 'sensor.range_rate_sd': 1.0, 'scan.assembly': 'snapshot',
+    }))  # fmt: skip
+    azimuth, speed = np.array([0.3, 0.315, 2.0]), np.array([100.0, 102.0, 90.0])
+    height = np.full(3, 0.05 if d == 3 else np.nan)
+    worst = []
+    for k in range(20):
+        away = np.array([20e3, 20_100.0, 20e3]) + 4.0 * k * speed + rng.normal(0.0, 30.0, 3)
+        rate = speed + rng.normal(0.0, 1.0, 3)
+        plots = Plots.polar(
+            np.full(3, 4.0 * k), away, azimuth, elevation=height, range_rate=rate
+        )  # fmt: skip
+        tracks = tracker.track(replace(plots, stamp=4.0 * k))
+        mean = tracks.planes[0].estimate('mmse')[0]
+        radial = (mean[:, 0] * mean[:, 1] + mean[:, 2] * mean[:, 3]) / np.hypot(
+            mean[:, 0], mean[:, 2]
+        )
+        worst.append(np.abs(np.sort(radial) - np.sort(speed)).max() if len(radial) == 3 else 99.0)
+    assert tracks.confirmed.sum() == 3
+    assert max(worst[5:]) < 4.0  # sd of a look 1, and the neighbour's rate is 2 off

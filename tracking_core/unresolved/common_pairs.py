@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from tracking_core import measurement
-from tracking_core.batches import Floats, Innovations, Mixture, Pairs, Scan
+from tracking_core.batches import Floats, Measurement, Pairs, Scan
 from tracking_core.composition import Plane, Setup
 from tracking_core.kalman import mixture_log_likelihood
 from tracking_core.pairing import Gated
@@ -86,7 +86,7 @@ def _blur_own(gated: Gated, blur: Floats, passed: Predicted, scan: Scan, setup: 
     R = scan.covariance[pairs.plot] + blur[pairs.track]
     position = scan.position[pairs.plot]
     position = setup.sensor.space.beside(position, passed.gates.centre, pairs.track)
-    part = _compare_again(pairs, position, np.ones(len(pulled)), R, passed, setup)
+    part = _compare_again(pairs, position, np.ones(len(pulled)), R, passed, scan, setup)
     return put(gated, pulled, replace(part, common=gated.common[pulled]))
 
 
@@ -107,18 +107,24 @@ def _measure(
     own = places.mean[track] + places.velocity[track] * lag[:, None]
     value = z - laws.expected[used] + share[:, None] * own
     R = scan.covariance[plot] + laws.noise[used] + laws.alone[used, None, None] * blur[track]
-    rows = _compare_again(Pairs(track, plot, lag), value, share, R, passed, setup)
+    rows = _compare_again(
+        Pairs(track, plot, lag), value, share, R, passed, scan, setup, is_own=False
+    )
     return replace(rows, common=used)
 
 
 def _compare_again(
-    pairs: Pairs, value: Floats, share: Floats, R: Floats, passed: Predicted, setup: Setup
-) -> Gated:
-    """Compare plots (P, d) with a share of the tracks, with noise R (P, d, d)."""
+    pairs: Pairs, value: Floats, share: Floats, R: Floats, passed: Predicted, scan: Scan,
+    setup: Setup, is_own: bool = True,
+) -> Gated:  # fmt: skip
+    """Compare plots (P, d), their own or in common, with a share of the tracks, noise R."""
     innovations = tuple(
-        _innovate(plane, mixture, pairs, value, share, R)
+        plane.estimator.innovate(
+            mixture, pairs.track,
+            _measured(plane, pairs, value, share, R, passed, scan, is_own),
+        )
         for plane, mixture in zip(setup.planes, passed.planes, strict=True)
-    )
+    )  # fmt: skip
     distance = np.sum([item.distance.min(axis=1) for item in innovations], axis=0)
     likelihood = np.sum(
         [
@@ -130,15 +136,19 @@ def _compare_again(
     return Gated(pairs, innovations, distance, likelihood, np.full(len(pairs), -1))
 
 
-def _innovate(
-    plane: Plane,
-    mixture: Mixture,
-    pairs: Pairs,
-    value: Floats,
-    share: Floats,
-    R: Floats,
-) -> Innovations:
+def _measured(
+    plane: Plane, pairs: Pairs, value: Floats, share: Floats, R: Floats, passed: Predicted,
+    scan: Scan, is_own: bool,
+) -> Measurement:  # fmt: skip
+    """Return what the pairs measure of a plane; the range rate of a common plot is nobody's."""
     at = np.array(plane.coordinates)
     matrix = share[:, None, None] * measurement.after(pairs.lag, len(at))
     part = measurement.without_absent(value[:, at], matrix, R[:, at[:, None], at])
-    return plane.estimator.innovate(mixture, pairs.track, part)
+    if 0 not in plane.coordinates or not np.isfinite(scan.range_rate).any():
+        return part
+    if not is_own:
+        return measurement.with_unknown(part)
+    velocity, variance = passed.gates.velocity, passed.gates.velocity_variance
+    return measurement.with_range_rate(
+        part, plane.coordinates, pairs, scan, velocity[pairs.track], variance[pairs.track]
+    )
