@@ -4,11 +4,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.planes import build_planes
 from radar_tracker.sensor import Radar
 from tracking_core.assembly import assemble
 from tracking_core.composition import Setup
+from tracking_core.several_plots import Extent
 
 __all__ = ['build_planes', 'build_setup']
 
@@ -16,4 +19,8 @@ __all__ = ['build_planes', 'build_setup']
 def build_setup(config: RadarTrackerConfig, radar: Radar) -> Setup:
     """Return sensor, filters and rules for these parameters."""
     planes = build_planes(config, radar.dimensions)
-    return assemble(config, radar, planes, config.initiation, config.sensor.range_resolution)
+    size = config.sensor.contact_size
+    resolution = max(config.sensor.range_resolution, size)
+    setup = assemble(config, radar, planes, config.initiation, resolution)
+    extent = Extent(size, config.initiation.speed_max)
+    return replace(setup, extent=extent)

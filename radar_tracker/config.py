@@ -94,8 +94,11 @@ class RadarTrackerConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
         validate(self)
-        if self.sensor.range_resolution > 0.0 and self.association not in JOINT:
-            raise ValueError(
-                'RadarTrackerConfig.association must be jpda or jpda_star where '
-                f'sensor.range_resolution is above 0, got {self.association}'
-            )
+        if self.association in JOINT:
+            return
+        for name in ('range_resolution', 'contact_size'):
+            if getattr(self.sensor, name) > 0.0:
+                raise ValueError(
+                    'RadarTrackerConfig.association must be jpda or jpda_star where '
+                    f'sensor.{name} is above 0, got {self.association}'
+                )

@@ -12,6 +12,7 @@ import numpy as np
 from radar_tracker import mounting
 from radar_tracker.conversion import linearised, to_cartesian, to_polar
 from radar_tracker.mounting import PlatformDoubt
+from radar_tracker.resolving import limits, reach
 from radar_tracker.sensor_config import SensorConfig
 from radar_tracker.told import excess, NOTHING, tell_noise
 from tracking_core.batches import Coverage, Floats, Plots, Scan
@@ -85,13 +86,6 @@ class Radar:
             position - np.array(coverage.sensor_position)[: self.dimensions]
         )
 
-    @property
-    def _limits(self) -> Floats:
-        """Range [m], azimuth and elevation [rad] (d,): the beam is as high as it is wide."""
-        c = self.config
-        limits = [c.range_resolution, c.azimuth_resolution, c.azimuth_resolution]
-        return np.array(limits[: self.dimensions])
-
     def separation(self, first: Floats, second: Floats, coverage: Coverage) -> Floats:
         """
         Return how far contacts are apart in units of the resolution limit (P, d).
@@ -108,15 +102,12 @@ class Radar:
         one, other = to_polar(first - origin), to_polar(_or_like(second, first) - origin)
         apart = other - one
         apart[:, 1] = wrap_angle(apart[:, 1])
-        return np.asarray(apart / self._limits)
+        return np.asarray(apart / limits(self.config, one))
 
     def reach(self, position: Floats, coverage: Coverage) -> Floats:
         """Return half size (T, d) [m] of the box of all that may be one plot with a contact."""
         polar = to_polar(position - np.array(coverage.sensor_position)[: self.dimensions])
-        sides = [linearised(polar, sd[None])[1] for sd in np.diag(self._limits)]
-        straight = np.sum([np.sqrt(np.einsum('tdd->td', side)) for side in sides], axis=0)
-        bend = (1.0 - np.cos(self.config.azimuth_resolution)) * polar[:, :1]  # a cell is an arc
-        return np.asarray(straight + bend)
+        return reach(self.config, polar)
 
     def measure(self, plots: Plots, pose: PlatformPose, coverage: Coverage, volume: float) -> Scan:
         """

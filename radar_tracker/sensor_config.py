@@ -59,6 +59,11 @@ class SensorConfig:
         0.0, unit='rad', low=0.0, high=1.0,
         doc='the same in azimuth, and in elevation (3-D radar); both or neither',
     )  # fmt: skip
+    contact_size: float = parameter(
+        0.0, unit='m', low=0.0, high=1e4,
+        doc='a contact may give several plots, as far apart as this: they are made one; contacts '
+        'nearer to each other are one, too; 0: a contact gives one plot',
+    )  # fmt: skip
     dimensions: int = parameter(
         0, unit='1', doc='2 or 3; 0: as the first plots tell (elevation or z: 3)', low=0, high=3
     )

@@ -14,6 +14,7 @@ from tracking_core.estimators import Estimator, SeesFromSensor
 from tracking_core.lifecycle import Lifecycle
 from tracking_core.lifecycle_config import InitiationConfig, MergeConfig
 from tracking_core.sensing import Sensor
+from tracking_core.several_plots import Extent, ONE_PLOT
 from tracking_core.unresolved.resolution import Resolution, Resolving
 
 
@@ -67,6 +68,7 @@ class Setup:
     max_tracks: int
     longest_pause: float  # a track that nobody looked at for longer ends [s]; 0: none does
     resolution: Resolution | None = None  # None: every contact gives its own plot
+    extent: Extent = ONE_PLOT  # every contact gives one plot
 
     def with_sensor(self, sensor: ResolvingSensor) -> Setup:
         """Return the same for another state of the sensor: filters keep what they worked out."""

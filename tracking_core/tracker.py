@@ -80,9 +80,8 @@ class Tracker:
 
         """
         state, silent = self._without_silent(scan)
-        if state.held is not None:
-            scan = concatenate(state.held, scan)
         interval = _interval(scan, state)
+        scan = self.setup.extent.gather(state.held, scan, interval, self.setup.sensor.space)
         density = self._density(state, scan, interval)
         seen = self._look(state.tracks, scan, density)
         born = start_tracks(scan, seen, density, interval, self.setup, state)
