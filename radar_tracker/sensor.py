@@ -53,7 +53,7 @@ class Radar:
     @property
     def range_rate_density(self) -> float:
         """Density of the range rates of false plots [s/m]."""
-        return 0.5 / self.config.range_rate_max
+        return 1.0 / (self.config.range_rate_interval or 2.0 * self.config.range_rate_max)
 
     def plot_space_volume(self, range_max: Floats | float) -> Any:
         """Return the volume of plot space out to a range [m]: m rad, m rad^2, m^2 or m^3."""
@@ -152,6 +152,7 @@ class Radar:
             sensor_velocity=pose.velocity + mounting.arm_velocity(pose, self.config.mount),
             coverage=coverage,
             volume=volume,
+            range_rate_interval=self.config.range_rate_interval,
             excess=excess(covariance, self.noise(position, coverage)) if told else NOTHING,
         )
 

@@ -91,6 +91,11 @@ class SensorConfig:
     range_rate_max: float = parameter(
         600.0, unit='m/s', doc='false plots have range rates up to this, either sign', low=0.1
     )
+    range_rate_interval: float = parameter(
+        0.0, unit='m/s', low=0.0,
+        doc='ambiguous range rates come again after so much, which is from the lowest to the '
+        'highest that the sensor tells; 0: they do not',
+    )  # fmt: skip
     mount: MountConfig = field(default_factory=MountConfig)
 
     def __post_init__(self) -> None:

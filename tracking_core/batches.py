@@ -151,6 +151,7 @@ class Scan:
     coverage: Coverage
     volume: float  # plot space of the whole coverage, what the clutter density is per
     excess: tuple[float, float, float] = (0.0, 0.0, 0.0)  # by axis, of variances over the usual
+    range_rate_interval: float = 0.0  # after which range rates come again [m/s], 0: they do not
 
     def __len__(self) -> int:
         return len(self.time)

@@ -9,6 +9,8 @@ import numpy as np
 from tracking_core.batches import Floats, Measurement, Pairs, Scan
 from tracking_core.rows import take_rows
 
+_SURE = 2.0  # sd, that must fit into half of the interval of range rates
+
 
 def of_plane(
     coordinates: tuple[int, ...], pairs: Pairs, scan: Scan, position: Floats
@@ -93,10 +95,34 @@ def with_range_rate(
     swing = np.einsum('pd,pde,pe->p', across, noise, across) / distance**2
     variance = scan.range_rate_variance[rows] + swing
     variance += (sight**2 * velocity_variance)[:, ~inside].sum(axis=1)
-
     row = np.zeros((len(pairs), 1, measurement.matrix.shape[2]))
     row[:, 0, 1::2] = sight[:, inside]
+    if scan.range_rate_interval:
+        expected = (sight * velocity)[:, inside].sum(axis=1)
+        doubt = variance + (sight**2 * velocity_variance)[:, inside].sum(axis=1)
+        value, row, variance = _unfold(
+            value, row, variance, expected, doubt, scan.range_rate_interval
+        )
     return _append(measurement, value, row, variance)
+
+
+def _unfold(
+    value: Floats, row: Floats, variance: Floats, expected: Floats, doubt: Floats, interval: float
+) -> tuple[Floats, Floats, Floats]:
+    """
+    Return range rates (P,) that come again after an interval, those nearest to the expected ones.
+
+    Where the expectation, of variance `doubt`, is too vague to say which, the range rate says
+    nothing: it is as likely as any other within the interval.
+    """
+    near = value + interval * np.rint((expected - value) / interval)
+    sure = _SURE * np.sqrt(doubt) < 0.5 * interval
+    even = interval**2 / (2.0 * np.pi)  # a Gaussian of this variance has 1 / interval at 0
+    return (
+        np.where(sure, near, 0.0 * near),  # NaN stays NaN
+        np.where(sure[:, None, None], row, 0.0),
+        np.where(sure, variance, even),
+    )
 
 
 def with_unknown(measurement: Measurement) -> Measurement:

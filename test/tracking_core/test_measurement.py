@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 
 from tracking_core import measurement
-from tracking_core.batches import Coverage, Mixture, Pairs, Scan
+from tracking_core.batches import Coverage, Innovations, Mixture, Pairs, Scan
 from tracking_core.kalman import innovate
 
 SENSOR = np.array([100.0, 0.0, 0.0])  # [m]
@@ -102,3 +104,33 @@ def test_with_range_rate_ignores_plots_without() -> None:
     assert_allclose(with_rate.log_likelihood[0], plain.log_likelihood[0], rtol=1e-12)
     assert_allclose(with_rate.distance[0], plain.distance[0], rtol=1e-12)
     assert with_rate.distance[1, 0] > plain.distance[1, 0]
+
+
+def folded(velocity_variance: float, interval: float) -> tuple[Innovations, Innovations]:
+    """Return innovations of a position, and of the same with range rate -30 told as 10."""
+    scan = replace(make_scan([[1100.0, 0.0]], [10.0]), range_rate_interval=interval)
+    pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
+    level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
+    variance = np.full((1, 2), velocity_variance)
+    full = measurement.with_range_rate(
+        level, (0, 1), pairs, scan, np.array([[-29.0, 5.0]]), variance
+    )
+    P = np.diag([50.0, velocity_variance, 50.0, velocity_variance])
+    mean = np.array([[[1100.0, -29.0, 0.0, 5.0]]])
+    plane = Mixture(mean, P[None, None], np.ones((1, 1)), np.zeros((1, 0)))
+    position, both = (innovate(plane, pairs.track, item) for item in (level, full))
+    return position, both
+
+
+def test_ambiguous_range_rate_is_the_one_nearest_to_the_expected_one() -> None:
+    """10 m/s, which comes again after 40, is -30 to a contact that comes at 29; else it is 10."""
+    assert_allclose(folded(1.0, 40.0)[1].innovation[0, 0, 2], -1.0)
+    assert_allclose(folded(1.0, 0.0)[1].innovation[0, 0, 2], 39.0)
+
+
+def test_ambiguous_range_rate_says_nothing_of_a_vague_velocity() -> None:
+    """Of 20 m/s sd nobody knows which it is: one in the interval, as evenly as of false plots."""
+    position, both = folded(400.0, 40.0)
+    assert_allclose(both.cross_covariance[0, 0, :, 2], 0.0)
+    assert_allclose(both.distance, position.distance, atol=1e-12)
+    assert_allclose(both.log_likelihood, position.log_likelihood - np.log(40.0), rtol=1e-12)
