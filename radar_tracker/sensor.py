@@ -12,6 +12,7 @@ import numpy as np
 from radar_tracker import mounting
 from radar_tracker.conversion import linearised, to_cartesian, to_polar
 from radar_tracker.mounting import PlatformDoubt
+from radar_tracker.plot_space import of_plots, space_per_metre
 from radar_tracker.resolving import limits, reach
 from radar_tracker.sensor_config import SensorConfig
 from radar_tracker.told import excess, NOTHING, tell_noise
@@ -82,9 +83,8 @@ class Radar:
 
     def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
         """Return plot space per m^d (T,) at positions (T, d): 1/r, 1/(r^2 cos elevation) or 1."""
-        return self._clutter_volume(
-            position - np.array(coverage.sensor_position)[: self.dimensions]
-        )
+        offset = position - np.array(coverage.sensor_position)[: self.dimensions]
+        return space_per_metre(offset, self.is_polar)
 
     def separation(self, first: Floats, second: Floats, coverage: Coverage) -> Floats:
         """
@@ -135,6 +135,7 @@ class Radar:
             covariance = rotation @ covariance @ np.swapaxes(rotation, 1, 2)
         position = offset + origin
         covariance = covariance + mounting.platform_noise(pose, offset)
+        unknown = np.zeros(len(plots), bool)
         if d == 3:
             unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])
             position[unknown, 2] = np.nan
@@ -147,13 +148,16 @@ class Radar:
             range_rate=plots.range_rate,
             range_rate_variance=_or(plots.range_rate_sd, self.config.range_rate_sd) ** 2,
             snr=plots.snr,
-            clutter_volume=self._clutter_volume(local[:, :d]),
+            clutter_volume=of_plots(
+                local[:, :d], unknown, self.is_polar, self.config.elevation_span
+            ),
             sensor_position=origin,
             sensor_velocity=pose.velocity + mounting.arm_velocity(pose, self.config.mount),
             coverage=coverage,
             volume=volume,
             range_rate_interval=self.config.range_rate_interval,
             excess=excess(covariance, self.noise(position, coverage)) if told else NOTHING,
+            is_slant=self.is_polar and d == 3,
         )
 
     def _local(self, plots: Plots) -> tuple[Floats, Floats]:
@@ -170,15 +174,6 @@ class Radar:
         covariance[:, 2, 2] = 1.0
         position[:, :d], covariance[:, :d, :d] = to_cartesian(polar[:, :d], sd[:, :d])
         return position, covariance
-
-    def _clutter_volume(self, offset: Floats) -> Floats:
-        """Return plot space per m^d (M,) at places (M, d) seen from the sensor."""
-        if not self.is_polar:
-            return np.ones(len(offset))
-        ground = np.maximum(np.hypot(offset[:, 0], offset[:, 1]), 1.0)
-        if self.dimensions == 2:
-            return np.asarray(1.0 / ground)
-        return np.asarray(1.0 / (np.hypot(ground, offset[:, 2]) * ground))  # 1/(r^2 cos elevation)
 
 
 def _or(values: Floats, default: float) -> Floats:

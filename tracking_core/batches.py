@@ -145,13 +145,14 @@ class Scan:
     range_rate: Floats  # (M,) positive receding [m/s], NaN: not measured
     range_rate_variance: Floats  # (M,) [m^2/s^2]
     snr: Floats  # (M,) [dB], NaN: not measured
-    clutter_volume: Floats  # (M,) plot-space volume of one unit of `position` space at the plot
+    clutter_volume: Floats  # (M,) plot-space volume of one unit of what is known of `position`
     sensor_position: Floats  # (M, 3) [m]
     sensor_velocity: Floats  # (M, 3) [m/s]
     coverage: Coverage
     volume: float  # plot space of the whole coverage, what the clutter density is per
     excess: tuple[float, float, float] = (0.0, 0.0, 0.0)  # by axis, of variances over the usual
     range_rate_interval: float = 0.0  # after which range rates come again [m/s], 0: they do not
+    is_slant: bool = False  # plots without height stand at their slant range
 
     def __len__(self) -> int:
         return len(self.time)

@@ -56,6 +56,7 @@ def with_range_rate(
     coordinates: tuple[int, ...],
     pairs: Pairs,
     scan: Scan,
+    place: Floats,
     velocity: Floats,
     velocity_variance: Floats,
 ) -> Measurement:
@@ -76,13 +77,15 @@ def with_range_rate(
         P pairs.
     scan : Scan
         Plots with `range_rate`, NaN where absent.
+    place : (P, d) array
+        Of the plots, where they lack a height at that of the track [m].
     velocity, velocity_variance : (P, d) arrays
         Predicted velocity in all coordinates of the scan [m/s, m^2/s^2].
 
     """
     d, rows = scan.position.shape[1], pairs.plot
     inside = np.isin(np.arange(d), coordinates)
-    line = np.nan_to_num(scan.position[rows] - scan.sensor_position[rows, :d])
+    line = place - scan.sensor_position[rows, :d]
     distance = np.maximum(np.linalg.norm(line, axis=1), 1.0)
     sight = line / distance[:, None]
     platform = (sight * scan.sensor_velocity[rows, :d]).sum(axis=1)

@@ -18,6 +18,7 @@ from tracking_core.kalman import mixture_log_likelihood
 from tracking_core.linalg import determinant, over_modes
 from tracking_core.rows import take, take_rows
 from tracking_core.sensing import Sensor
+from tracking_core.slant import farther_out, over_ground
 from tracking_core.space import Space
 
 _UNIT_BALL = {1: 2.0, 2: np.pi, 3: 4.0 * np.pi / 3.0}
@@ -134,13 +135,19 @@ def pair(
 
     """
     reach = gates.half_size + np.abs(gates.velocity) * longest_lag[:, None]
+    reach[:, :2] += farther_out(gates.centre, scan)[:, None]
     track, plot = space.find_pairs(gates.centre, reach, scan.position)
     lag = scan.time[plot] - time[track]
     pairs = take(Pairs(track, plot, lag), np.abs(lag) <= longest_lag[track] + 1e-9)
-    position = take_rows(scan.position, pairs.plot)
-    position = space.beside(position, gates.centre, pairs.track)
+    position = plots_beside(pairs, gates, scan, space)
     gated, dof = _innovate(planes, mixtures, gates, pairs, scan, position)
     return take(gated, gated.distance <= bounds[dof])
+
+
+def plots_beside(pairs: Pairs, gates: Gates, scan: Scan, space: Space) -> Floats:
+    """Return the places (P, d) of the plots, told so as to be compared with their tracks."""
+    position = space.beside(take_rows(scan.position, pairs.plot), gates.centre, pairs.track)
+    return over_ground(position, pairs.plot, gates.centre[pairs.track, -1], scan)
 
 
 def _innovate(
@@ -155,11 +162,14 @@ def _innovate(
     has_range_rate = bool(np.isfinite(scan.range_rate).any())
     distance, log_likelihood = np.zeros(len(pairs)), np.zeros(len(pairs))
     dof, innovations = np.zeros(len(pairs), np.int64), []
+    place = position
+    if has_range_rate:
+        place = np.where(np.isnan(position), take_rows(gates.centre, pairs.track), position)
     for plane, mixture in zip(planes, mixtures, strict=True):
         measured = measurement.of_plane(plane.coordinates, pairs, scan, position)
         if has_range_rate and 0 in plane.coordinates:
             measured = measurement.with_range_rate(
-                measured, plane.coordinates, pairs, scan,
+                measured, plane.coordinates, pairs, scan, place,
                 gates.velocity[pairs.track], gates.velocity_variance[pairs.track],
             )  # fmt: skip
         item = plane.estimator.innovate(mixture, pairs.track, measured)

@@ -72,7 +72,7 @@ def test_with_range_rate_measures_along_the_line_of_sight() -> None:
     pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
     level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
     full = measurement.with_range_rate(
-        level, (0, 1), pairs, scan, velocity, np.array([[9.0, 9.0, 2.0]])
+        level, (0, 1), pairs, scan, scan.position, velocity, np.array([[9.0, 9.0, 2.0]])
     )
     state = np.array([700.0, 30.0, 800.0, -40.0])
     assert_allclose(full.matrix[0] @ state, full.value[0], rtol=1e-12)
@@ -93,7 +93,7 @@ def test_with_range_rate_ignores_plots_without() -> None:
     pairs = Pairs(np.array([0, 0]), np.array([0, 1]), np.zeros(2))
     level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
     full = measurement.with_range_rate(
-        level, (0, 1), pairs, scan, np.full((2, 2), 10.0), np.ones((2, 2))
+        level, (0, 1), pairs, scan, scan.position, np.full((2, 2), 10.0), np.ones((2, 2))
     )
     assert_array_equal(full.absent, [1, 0])
     plane = Mixture(
@@ -113,7 +113,7 @@ def folded(velocity_variance: float, interval: float) -> tuple[Innovations, Inno
     level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
     variance = np.full((1, 2), velocity_variance)
     full = measurement.with_range_rate(
-        level, (0, 1), pairs, scan, np.array([[-29.0, 5.0]]), variance
+        level, (0, 1), pairs, scan, scan.position, np.array([[-29.0, 5.0]]), variance
     )
     P = np.diag([50.0, velocity_variance, 50.0, velocity_variance])
     mean = np.array([[[1100.0, -29.0, 0.0, 5.0]]])

@@ -19,7 +19,7 @@ from tracking_core import measurement
 from tracking_core.batches import Floats, Measurement, Pairs, Scan
 from tracking_core.composition import Plane, Setup
 from tracking_core.kalman import mixture_log_likelihood
-from tracking_core.pairing import Gated
+from tracking_core.pairing import Gated, plots_beside
 from tracking_core.prediction import Predicted
 from tracking_core.rows import concatenate, put, take
 from tracking_core.unresolved.grouping import group_tracks, Groups, Links
@@ -84,8 +84,7 @@ def _blur_own(gated: Gated, blur: Floats, passed: Predicted, scan: Scan, setup: 
         return gated
     pairs = take(gated.pairs, pulled)
     R = scan.covariance[pairs.plot] + blur[pairs.track]
-    position = scan.position[pairs.plot]
-    position = setup.sensor.space.beside(position, passed.gates.centre, pairs.track)
+    position = plots_beside(pairs, passed.gates, scan, setup.sensor.space)
     part = _compare_again(pairs, position, np.ones(len(pulled)), R, passed, scan, setup)
     return put(gated, pulled, replace(part, common=gated.common[pulled]))
 
@@ -148,7 +147,8 @@ def _measured(
         return part
     if not is_own:
         return measurement.with_unknown(part)
-    velocity, variance = passed.gates.velocity, passed.gates.velocity_variance
+    gates = take(passed.gates, pairs.track)
+    place = np.where(np.isnan(value), gates.centre, value)
     return measurement.with_range_rate(
-        part, plane.coordinates, pairs, scan, velocity[pairs.track], variance[pairs.track]
+        part, plane.coordinates, pairs, scan, place, gates.velocity, gates.velocity_variance
     )
