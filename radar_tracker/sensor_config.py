@@ -47,8 +47,9 @@ class SensorConfig:
     range_rate_sd: float = parameter(2.0, unit='m/s', doc='range rate noise', low=1e-3)
     position_sd: float = parameter(30.0, unit='m', doc='noise of Cartesian plots', low=1e-3)
     detection_probability: float = parameter(
-        0.9, unit='1', doc='chance that a look at a contact gives a plot', low=0.01, high=0.999,
-        live=True,
+        0.9, unit='1', low=0.01, high=0.999, live=True,
+        doc='chance that a look at a contact gives a plot; '
+        'a track whose looks say less has its own, down to 2/3 of this',
     )  # fmt: skip
     range_resolution: float = parameter(
         0.0, unit='m', low=0.0, high=1e5,

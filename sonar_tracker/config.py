@@ -71,8 +71,9 @@ class SensorConfig:
         0.0, unit='rad', doc='marks that tell less are not believed', low=0.0, high=0.5
     )
     detection_probability: float = parameter(
-        0.9, unit='1', doc='chance that a cycle gives a mark of a contact', low=0.01, high=0.999,
-        live=True,
+        0.9, unit='1', low=0.01, high=0.999, live=True,
+        doc='chance that a cycle gives a mark of a contact; '
+        'a track whose looks say less has its own, down to 2/3 of this',
     )  # fmt: skip
     bearing_resolution: float = parameter(
         0.0, unit='rad', low=0.0, high=1.0,

@@ -9,8 +9,9 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 
-from tracking_core.batches import Bools, Floats, Ints, Mixture, Tracks
+from tracking_core.batches import Bools, Floats, Mixture, Tracks
 from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
+from tracking_core.detection import ones
 from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
 from tracking_core.rows import change
 
@@ -133,15 +134,10 @@ LIFECYCLES = {'existence': Existence, 'm_of_n': MOfN, 'error_ratio': ErrorRatio}
 
 def _count(tracks: Tracks, config: MOfNConfig | ErrorRatioConfig) -> tuple[Bools, Bools]:
     window = np.int64((1 << config.looks) - 1)
-    confirmed = tracks.confirmed | (_ones(tracks.history & window) >= config.hits)
+    confirmed = tracks.confirmed | (ones(tracks.history & window) >= config.hits)
     hopeless = tracks.misses > config.looks - config.hits
     lost = tracks.misses >= config.drop_misses
     return confirmed, np.where(confirmed, lost, hopeless)
-
-
-def _ones(bits: Ints) -> Ints:
-    """Return the number of set bits of each (T,)."""
-    return np.asarray((bits[:, None] >> np.arange(60) & 1).sum(axis=1))
 
 
 def existence_after(
