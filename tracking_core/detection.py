@@ -14,6 +14,7 @@ import numpy as np
 from tracking_core.batches import Floats, Ints, Tracks
 
 _WEIGHT = 10.0  # looks that what is usual counts for
+_CHANCE = 1.0  # a plot fewer than expected says nothing yet
 _LEAST = 2.0 / 3.0  # of what is usual: what has left is not followed for longer than a dozen looks
 _REMEMBERED = 60  # looks in `Tracks.history`
 
@@ -22,14 +23,14 @@ def detection_probability(tracks: Tracks, usual: float) -> Floats:
     """
     Return P_D of each track (T,): what is `usual`, or less if its last looks say so.
 
-    This is the mean of a beta distribution after the looks that are remembered, so that a row of
+    This is nearly the mean of a beta distribution after the looks that are remembered: a row of
     misses is weighed by how likely it is for a contact whose P_D is not known for sure. Never more
     than usual: who says less than there is wants patience.
     """
     hits = ones(tracks.history)
     is_full = tracks.hits > hits  # the first looks are forgotten
     looks = np.where(is_full, _REMEMBERED, np.frexp(tracks.history.astype(np.float64))[1])
-    own = (_WEIGHT * usual + hits) / (_WEIGHT + looks)
+    own = (_WEIGHT * usual + hits + _CHANCE) / (_WEIGHT + looks)
     return np.asarray(np.minimum(np.maximum(own, _LEAST * usual), usual))
 
 
