@@ -18,6 +18,8 @@ from tracking_core.linalg import inverse, symmetrise
 
 _UNKNOWNS = 4
 _WORST_CONDITION = 1e10  # of the information; beyond it the inverse is rounding
+_SURELY = 3.0  # sds of the noise that neighbouring marks show
+_LEAST_NOISE = 0.25  # variance over the one that is told; below it averaged marks show as bends
 _EDGE = 1e-3  # a range as near to its limits as this has been stopped there
 
 
@@ -43,20 +45,24 @@ def judge(best: Fit, legs: Legs, config: RangingConfig) -> Verdict:
 
     A range is, if the information is well conditioned, if the relative sd of the range is small,
     even if the contact strays from its course a little, and if the residuals are as small and as
-    white as those of a straight course.
+    white as those of a straight course. How noisy the marks are the residuals tell, too.
     """
     scale = 1.0 / np.sqrt(np.maximum(np.einsum('taa->ta', best.information), TINY))
     unit = best.information * scale[:, :, None] * scale[:, None, :]
     sound = np.linalg.cond(unit) < _WORST_CONDITION
     unit = np.where(sound[:, None, None], unit, np.eye(_UNKNOWNS))
     bound = inverse(unit)[0] * scale[:, :, None] * scale[:, None, :]
-    range_variance = bound[:, 3, 3] + _straying(best, legs, bound, config.velocity_noise)
+    count = (legs.weight > 0.0).sum(axis=1)
+    noise = _noise(best, count)
+    straying = _straying(best, legs, bound, config.velocity_noise)
+    bound *= np.maximum(noise, 1.0)[:, None, None]
+    range_variance = bound[:, 3, 3] + straying
     observable = sound & (range_variance < (config.relative_sd * best.state[:, 3]) ** 2)
 
     distance = legs.reach / best.state[:, 3]
     observable &= distance > (1.0 + _EDGE) * config.range_min
     observable &= distance < (1.0 - _EDGE) * config.range_max
-    chance = _chance(best, (legs.weight > 0.0).sum(axis=1))
+    chance = _chance(best, noise, count)
     state, jacobian = courses(best.state, legs)
     return Verdict(
         state=state,
@@ -67,9 +73,22 @@ def judge(best: Fit, legs: Legs, config: RangingConfig) -> Verdict:
     )
 
 
-def _chance(best: Fit, count: Ints) -> Floats:
+def _noise(best: Fit, count: Ints) -> Floats:
+    """
+    Return the variance of the marks in units of the one that they tell (T,).
+
+    From the steps between neighbouring residuals, in which no bend shows. What the marks tell is
+    believed unless it is surely wrong.
+    """
+    steps = (best.chi_square - np.sqrt(count) * best.serial) / count
+    told = np.abs(steps - 1.0) < _SURELY * np.sqrt(3.0 / count)
+    return np.where(told, 1.0, np.maximum(steps, _LEAST_NOISE))
+
+
+def _chance(best: Fit, noise: Floats, count: Ints) -> Floats:
     """Return how probable residuals as large or as even as these are on a straight course (T,)."""
-    size, evenness = chdtrc(count - _UNKNOWNS, best.chi_square), ndtr(-best.serial)
+    size = chdtrc(count - _UNKNOWNS, best.chi_square / noise)
+    evenness = ndtr(-best.serial / noise)
     return np.asarray(2.0 * np.minimum(size, evenness))
 
 

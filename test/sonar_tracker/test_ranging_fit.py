@@ -161,9 +161,9 @@ def test_verdict_stands_drifting_velocities() -> None:
     ('change', 'observable', 'bent'),
     [
         ({}, True, False),
-        ({'chi_square': np.full(1, 240.0)}, False, False),  # 146 is usual
-        ({'chi_square': np.full(1, 300.0)}, False, True),
-        ({'serial': np.full(1, 4.5)}, False, False),
+        ({'chi_square': np.full(1, 240.0), 'serial': np.full(1, 3.0)}, False, False),
+        ({'chi_square': np.full(1, 280.0), 'serial': np.full(1, 5.5)}, False, True),
+        ({'chi_square': np.full(1, 160.0), 'serial': np.full(1, 4.5)}, False, False),
         ({'serial': np.full(1, 7.0)}, False, True),
     ],
 )
@@ -173,3 +173,27 @@ def test_verdict_wants_small_and_white_residuals(change, observable: bool, bent:
     best = replace(fit(legs, 50.0, 1e5), **change)
     found = judge(best, legs, RangingConfig())
     assert (bool(found.observable[0]), bool(found.bent[0])) == (observable, bent)
+
+
+@pytest.mark.parametrize('factor', [0.5, 2.0])
+def test_verdict_hears_how_noisy_the_marks_are(factor: float) -> None:
+    """Marks that tell half their sd have a range and its true sd, and twice their sd, too."""
+    heard, still = points(200, seed=9), legs_of(points(200, seed=9, sd=1e-7))
+    legs = legs_of(replace(heard, weight=heard.weight / factor**2))
+    found = judge(fit(legs, 50.0, 1e5), legs, RangingConfig())
+    true = courses(fit(still, 50.0, 1e5).state, still)[0]
+    off = (found.state - true)[:, :2]
+    square = np.einsum('tx,txy,ty->t', off, np.linalg.inv(found.covariance[:, :2, :2]), off)
+    assert found.observable.mean() > 0.8
+    assert not found.bent.any()
+    usual = np.median(square[found.observable]) / 1.386  # of chi-square with two components
+    assert usual == pytest.approx(1.0 / max(factor, 1.0) ** 2, rel=0.3)
+
+
+def test_marks_that_tell_too_large_an_sd_do_not_hide_a_bend() -> None:
+    """A contact that turns is noticed by how its residuals follow each other."""
+    heard = points(60, seed=11)
+    swing = 3e-3 * np.sin(2.0 * np.pi * heard.time / 600.0)
+    legs = legs_of(replace(heard, bearing=heard.bearing + swing, weight=heard.weight / 4.0))
+    found = judge(fit(legs, 50.0, 1e5), legs, RangingConfig())
+    assert found.bent.mean() > 0.9
