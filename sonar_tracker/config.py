@@ -26,6 +26,7 @@ from tracking_core.lifecycle_config import (
 
 # One mark says little among false ones: tracks must be let live until they have some.
 _DROP = 1e-4
+_ALL_AROUND = 6.28  # rad, as a full turn is written
 _ONE_MODE = ('kalman_decoupled', 'finite_memory')
 
 FARTHEST = 1e7  # m, of a sensor from the origin of its platform or of the tracking frame
@@ -59,6 +60,11 @@ class SensorConfig:
         'omnidirectional', unit='', choices=('omnidirectional', 'linear'),
         doc='a linear array along the x axis of the sensor is blurred by 1 / sin(bearing) and '
         'cannot tell left from right',
+    )  # fmt: skip
+    both_sides: bool = parameter(
+        False, unit='',
+        doc='linear array: each mark counts on both sides of the axis; where own ship turns the '
+        'track of the contact goes on, that of its image ends',
     )  # fmt: skip
     bearing_sd: float = parameter(
         0.01,
@@ -173,6 +179,12 @@ class SonarTrackerConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their limits, and what does not go together."""
         validate(self)
+        sensor = self.sensor
+        if sensor.both_sides and (sensor.array != 'linear' or sensor.sector_width < _ALL_AROUND):
+            raise ValueError(
+                'SonarTrackerConfig.sensor: both_sides goes with array linear and a sector_width '
+                f'of a full turn, got {sensor.array} and {sensor.sector_width}'
+            )
         modes = len(self.motion.sojourn_time)
         if self.estimator in _ONE_MODE and modes > 1:
             raise ValueError(

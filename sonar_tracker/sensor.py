@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from sonar_tracker.config import SensorConfig
 from tracking_core.batches import Bearings, Coverage, Floats, Scan
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform_pose import PlatformPose
+from tracking_core.rows import take
 from tracking_core.space import ANGLES, Space
 
 _LEAST_SINE = 0.05  # a linear array hears nothing of use nearer to its axis than 3 degrees
@@ -125,6 +126,14 @@ class Sonar:
             volume=self.config.sector_width,
             excess=(float(unsure.max(initial=0.0)), 0.0, 0.0),
         )
+
+    def heard(self, marks: Bearings) -> Bearings:
+        """Return the marks, on both sides of the axis if they count there."""
+        if not self.config.both_sides:
+            return marks
+        twice = take(marks, np.arange(len(marks)).repeat(2))
+        side = np.tile([1.0, -1.0], len(marks))
+        return replace(twice, bearing=side * twice.bearing)
 
     def mark_sd(self, marks: Bearings) -> Floats:
         """Return the sd of each mark (M,), the parameter's where the mark does not tell [rad]."""

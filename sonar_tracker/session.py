@@ -127,7 +127,7 @@ class SonarInstrument:
     def _fans(self, tracks: Tracks, length: float) -> Fans:
         sensor, coverage = self.tracker.config.sensor, self.tracker.coverage
         states = bearing_states(tracks, self.tracker.config.output)
-        is_blind = sensor.array == 'linear'  # to the side on which a contact is
+        is_blind = sensor.array == 'linear' and not sensor.both_sides  # to a contact's side
         return Fans(
             bearing=states.bearing,
             bearing_sd=states.bearing_sd,

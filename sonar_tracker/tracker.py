@@ -153,6 +153,7 @@ class SonarTracker:
             If own ship is not known at the time of the marks.
 
         """
+        bearings = self.sonar.heard(bearings)
         times = bearings.time if len(bearings) else np.array([bearings.stamp])
         start, end = float(times.min()), float(times.max())
         pose = pose_at(platform, np.append(bearings.time, 0.5 * (start + end)))

@@ -87,3 +87,20 @@ def test_blind_array_shows_the_mirror_image_about_its_axis(array: str) -> None:
         assert toward['mirror'] == pytest.approx(1.4, abs=1e-3)
     else:
         assert 'mirror' not in toward
+
+
+def test_on_both_sides_the_image_is_a_track_and_no_mirror() -> None:
+    """About the axis, which is turned with the mount."""
+    types = rosbags_types()
+    values = {'sensor.mount.yaw': 0.4, 'sensor.array': 'linear', 'sensor.both_sides': True}
+    config = with_values(SonarTrackerConfig(), values)
+    node = with_values(sonar_node_config(), {'tracking_frame': 'map'})
+    session = sonar_session(config, node, types, logging.getLogger('both'))
+    for cycle in range(10):
+        columns = {'bearing': np.array([-1.0])}
+        session.plots(from_columns(columns, 2.0 * cycle, 'sonar', types), 0.0)
+    drawn = session.instrument.draw(set(), session.header(), node.markers).markers
+    fans = [2.0 * np.arctan2(m.pose.orientation.z, m.pose.orientation.w)
+            for m in drawn if m.ns == 'fan']  # fmt: skip
+    assert_allclose(np.sort(fans), [-0.6, 1.4], atol=1e-3)
+    assert 'mirror' not in {m.ns for m in drawn}

@@ -6,7 +6,7 @@ import numpy as np
 
 from sonar_tracker.config import SensorConfig, SonarTrackerConfig
 from sonar_tracker.sensor import Sonar
-from sonar_tracker.tracker import SonarTracker
+from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings, Coverage
 from tracking_core.config import with_values
 from tracking_core.platform import Platform
@@ -109,3 +109,31 @@ def test_gates_are_for_marks_as_sure_as_they_say_and_for_the_heading():
     sonar.track(marks, turning(yaw_variance=0.03**2))
     expected = sonar.core.setup.sensor.noise(np.zeros((1, 1)), sonar.coverage)
     np.testing.assert_allclose(expected, [[[0.02**2 + 0.03**2]]], rtol=1e-9)
+
+
+def test_contact_to_port_keeps_its_id_where_marks_are_counted_to_starboard():
+    """Of each mark's two tracks that of the contact goes on through the turn, the other ends."""
+    rng = np.random.default_rng(2)
+    values = {
+        'sensor.array': 'linear', 'sensor.both_sides': True, 'sensor.bearing_sd': 0.003,
+    }  # fmt: skip
+    sonar = SonarTracker(with_values(SonarTrackerConfig(), values))
+    on_contact, before = set(), set()
+    for cycle in range(120):
+        ship, yaw = voyage(cycle)
+        pose = ship.at(ship.time[-1:])
+        line = np.array([3000.0 - 2.0 * ship.time[-1], 8000.0]) - pose.position[0, :2]
+        bearing = np.arctan2(line[1], line[0])
+        off = abs(bearing - yaw) + 0.003 * rng.standard_normal()
+        tracks = sonar.track(Bearings.of(ship.time[-1:], np.array([-off])), ship)
+        sure = tracks.confirmed
+        near = np.abs(np.cos(bearing_states(tracks).bearing - bearing) - 1.0) < 0.001
+        if cycle == 45:
+            assert (near & sure).sum() == 1
+            assert sure.sum() == 2  # the contact, and its image to starboard
+            before = set(tracks.id[sure].tolist())
+        if cycle > 45:
+            on_contact |= set(tracks.id[sure & near].tolist())
+    assert len(on_contact) == 1
+    assert on_contact <= before
+    assert before & set(tracks.id.tolist()) == on_contact

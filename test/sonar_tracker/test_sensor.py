@@ -5,9 +5,10 @@
 import numpy as np
 import pytest
 
-from sonar_tracker.config import SensorConfig
+from sonar_tracker.config import SensorConfig, SonarTrackerConfig
 from sonar_tracker.sensor import Sonar
 from tracking_core.batches import Bearings, Coverage
+from tracking_core.config import with_values
 
 AXIS = 0.7  # of the array, in the tracking frame [rad]
 FROM_AXIS = np.radians([90.0, 30.0, 10.0, -10.0, 1.0])
@@ -50,3 +51,24 @@ def test_marks_that_tell_nothing_usable_have_the_sd_of_the_parameter():
     told = np.array([np.nan, np.inf, 0.0, -1.0, 0.001])
     found = sonar.mark_sd(marks(told))
     np.testing.assert_allclose(found, [0.01, 0.01, 0.01, 0.01, 0.002])
+
+
+def test_marks_count_on_both_sides():
+    """Each as it is and mirrored about the axis, all else the same; only if it is asked for."""
+    heard = marks(0.002)
+    both = Sonar(SensorConfig(array='linear', both_sides=True)).heard(heard)
+    np.testing.assert_allclose(both.bearing[0::2], FROM_AXIS)
+    np.testing.assert_allclose(both.bearing[1::2], -FROM_AXIS)
+    np.testing.assert_allclose(both.bearing_sd, 0.002)
+    assert len(both.time) == len(both.snr) == 2 * len(heard)
+    assert Sonar(SensorConfig(array='linear')).heard(heard) is heard
+
+
+@pytest.mark.parametrize(
+    'wrong', [{'sensor.array': 'omnidirectional'}, {'sensor.sector_width': 2.8}]
+)
+def test_both_sides_are_refused_where_they_make_no_sense(wrong):
+    """Of an array that knows the side, or one that hears one side only."""
+    values = {'sensor.array': 'linear', 'sensor.both_sides': True, **wrong}
+    with pytest.raises(ValueError, match='both_sides goes with array linear'):
+        with_values(SonarTrackerConfig(), values)
