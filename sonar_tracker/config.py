@@ -26,6 +26,8 @@ from tracking_core.lifecycle_config import (
 
 # One mark says little among false ones: tracks must be let live until they have some.
 _DROP = 1e-4
+# Marks are often noisier than they tell; of those outside a gate a second track starts.
+_GATE = 0.9999
 _ALL_AROUND = 6.28  # rad, as a full turn is written
 _ONE_MODE = ('kalman_decoupled', 'finite_memory')
 
@@ -138,7 +140,7 @@ class SonarTrackerConfig:
 
     sensor: SensorConfig = field(default_factory=SensorConfig)
     motion: MotionConfig = field(default_factory=MotionConfig)
-    gate: GateConfig = field(default_factory=GateConfig)
+    gate: GateConfig = field(default_factory=lambda: GateConfig(probability=_GATE))
     existence: ExistenceConfig = field(default_factory=lambda: ExistenceConfig(drop=_DROP))
     m_of_n: MOfNConfig = field(default_factory=lambda: MOfNConfig(hits=4, looks=6))
     error_ratio: ErrorRatioConfig = field(default_factory=ErrorRatioConfig)

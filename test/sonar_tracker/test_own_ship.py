@@ -137,3 +137,19 @@ def test_contact_to_port_keeps_its_id_where_marks_are_counted_to_starboard():
     assert len(on_contact) == 1
     assert on_contact <= before
     assert before & set(tracks.id.tolist()) == on_contact
+
+
+def test_marks_that_tell_half_their_sd_start_no_second_tracks():
+    """Six contacts in 10 minutes, no parameters: what falls outside a gate has no track yet."""
+    rng, sonar = np.random.default_rng(4), SonarTracker(SonarTrackerConfig())
+    true, ids = np.radians([-150.0, -90.0, -30.0, 30.0, 90.0, 150.0]), set()
+    for cycle in range(300):
+        heard = true[rng.random(6) < 0.9]
+        sd = np.full(len(heard), 0.5 * 0.01)
+        marks = Bearings.of(
+            np.full(len(heard), 2.0 * cycle), heard + 0.01 * rng.standard_normal(len(heard)),
+            bearing_sd=sd, stamp=2.0 * cycle,
+        )  # fmt: skip
+        tracks = sonar.track(marks)
+        ids |= set(tracks.id[tracks.confirmed].tolist())
+    assert len(ids) <= 8
