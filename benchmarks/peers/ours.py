@@ -67,6 +67,7 @@ class OurSonar:
                     'sensor.detection_probability': knowledge.detection_probability,
                     'sensor.sector_width': 2.0 * knowledge.region,
                     'clutter_density': knowledge.clutter_density,
+                    'gate.probability': 0.997,  # as all others here
                     'motion.bearing_noise': [mode.position_noise for mode in knowledge.modes],
                     'motion.rate_noise': [mode.velocity_noise for mode in knowledge.modes],
                     'motion.sojourn_time': list(knowledge.sojourn),
