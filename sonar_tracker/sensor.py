@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sonar_tracker.config import SensorConfig
+from sonar_tracker.sensor_config import SensorConfig
 from tracking_core.batches import Bearings, Coverage, Floats, Scan
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform_pose import PlatformPose

@@ -16,8 +16,9 @@ from msg_adapters.bodies import Bodies
 from msg_adapters.fans import Fans, to_fan_markers
 from msg_adapters.message_types import MessageTypes
 from msg_adapters.reading import Reading
-from sonar_tracker.config import MountConfig, SonarTrackerConfig
+from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.memory import recall, remember
+from sonar_tracker.sensor_config import MountConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings, Floats, Tracks
 from tracking_core.linalg import wrap_angle

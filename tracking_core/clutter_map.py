@@ -23,7 +23,7 @@ SPOKES, RINGS = 64, 128
 SPOKE_EDGES = np.linspace(0.0, TURN, SPOKES + 1)  # [rad]
 RING_EDGES = np.concatenate([[0.0], 5.0 * 2.0 ** (np.arange(1.0, RINGS) / 7.0), [np.inf]])  # [m]
 _MEMORY = 10.0  # looks over which plots are counted
-_FEWEST = 30.0  # plots; fewer make no pattern
+_FEWEST = 10.0  # plots; fewer make no pattern
 _BLOCK = 8  # cells each way in which a jump is looked for
 _JUMP, _JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
 

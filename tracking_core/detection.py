@@ -17,20 +17,23 @@ _WEIGHT = 10.0  # looks that what is usual counts for
 _CHANCE = 1.0  # a plot fewer than expected says nothing yet
 _LEAST = 2.0 / 3.0  # of what is usual: what has left is not followed for longer than a dozen looks
 _REMEMBERED = 60  # looks in `Tracks.history`
+_STRANGE = 0.1  # strange plots expected in the gate, with which the looks count half
 
 
-def detection_probability(tracks: Tracks, usual: float) -> Floats:
+def detection_probability(tracks: Tracks, usual: Floats, strange: Floats) -> Floats:
     """
-    Return P_D of each track (T,): what is `usual`, or less if its last looks say so.
+    Return P_D of each track (T,): what is `usual` (T,), or less if its last looks say so.
 
     This is nearly the mean of a beta distribution after the looks that are remembered: a row of
     misses is weighed by how likely it is for a contact whose P_D is not known for sure. Never more
-    than usual: who says less than there is wants patience.
+    than usual: who says less than there is wants patience. Looks count little where `strange` (T,)
+    plots are expected in the gate: a track of clutter has few plots, too, and would be let live.
     """
     hits = ones(tracks.history)
     is_full = tracks.hits > hits  # the first looks are forgotten
     looks = np.where(is_full, _REMEMBERED, np.frexp(tracks.history.astype(np.float64))[1])
-    own = (_WEIGHT * usual + hits + _CHANCE) / (_WEIGHT + looks)
+    trust = _STRANGE / (_STRANGE + strange)
+    own = (_WEIGHT * usual + trust * hits + _CHANCE) / (_WEIGHT + trust * looks)
     return np.asarray(np.minimum(np.maximum(own, _LEAST * usual), usual))
 
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints, Mixture, Scan, Tracks
 from tracking_core.composition import Setup
-from tracking_core.detection import detection_probability
 from tracking_core.gating import box_pairs
 from tracking_core.looks import inside_coverage, margins, next_looks
 from tracking_core.pairing import Gates, open_gates, thresholds
@@ -27,7 +26,7 @@ class Predicted:
     tracks: Tracks  # planes, existence and time are predicted, the rest is of their last look
     margin: Floats  # (T,) until the gate is left behind [s]
     gates: Gates
-    detection: Floats  # (T,) P_D of each, 0 outside the coverage
+    detection: Floats  # (T,) P_D, 0 outside the coverage
     crowd: Floats  # (T,) plot space in the gate: how many strange plots it may hold
 
     @property
@@ -59,10 +58,9 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
     predicted = change(
         near, planes=planes, time=time, existence_probability=setup.lifecycle.prior(near, dt)
     )
-    detection = detection_probability(near, setup.sensor.detection_probability)
     return Predicted(
         row, predicted, margins(gates.centre[:, :2], widest, scan.coverage), gates,
-        np.where(inside, detection, 0.0),
+        np.where(inside, setup.sensor.detection_probability, 0.0),
         gates.volume * setup.sensor.clutter_volume(gates.centre, scan.coverage),
     )  # fmt: skip
 

@@ -13,6 +13,7 @@ from tracking_core.batches import Bools, Floats, Ints, Scan, Tracks
 from tracking_core.chances import TINY
 from tracking_core.composition import Setup
 from tracking_core.density import Density
+from tracking_core.detection import detection_probability
 from tracking_core.lifecycle import count_looks, has_left
 from tracking_core.linalg import is_positive_definite, sum_by_track
 from tracking_core.looks import LONGEST_WAIT
@@ -84,14 +85,15 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
     waiting[gated.pairs.plot[~due[gated.pairs.track]]] = True
 
     # A track that waits is not seen now; it stays as it was.
-    predicted = change(near, detection=np.where(due, near.detection, 0.0))
+    strange = near.crowd * density.total(density.relief(near.gates.centre))
+    own = detection_probability(near.tracks, near.detection, strange)
+    predicted = change(near, detection=np.where(due, own, 0.0))
     gated = take(gated, (predicted.detection > 0.0)[gated.pairs.track])
     gated, common = add_common(predicted, gated, scan, setup)
     existence = predicted.tracks.existence_probability
     share = share_plots(existence, predicted.detection, gated, scan, setup, density, common)
     updated, ended, broken = _update(predicted, gated, share, scan, setup, density.leniency)
-    strange = density.total(density.relief(predicted.gates.centre))
-    ended |= predicted.crowd * strange > _LOST  # it follows nobody any more
+    ended |= strange > _LOST  # it follows nobody any more
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
     lives = due & ~(ended | broken)

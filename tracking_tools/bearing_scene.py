@@ -15,7 +15,7 @@ from msg_adapters.bad_message import BadMessage
 from msg_adapters.bearings import to_bearings
 from msg_adapters.table import Columns
 from msg_adapters.track_rows import CONFIRMED
-from sonar_tracker.config import SensorConfig
+from sonar_tracker.sensor_config import SensorConfig
 from tracking_core.batches import Floats
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at

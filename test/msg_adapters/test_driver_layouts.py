@@ -14,7 +14,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.sensor_config import SensorConfig
 from radar_tracker.session import radar_session
-from sonar_tracker.config import SensorConfig as SonarConfig
+from sonar_tracker.sensor_config import SensorConfig as SonarConfig
 
 FLOAT, DOUBLE, BYTE, WORD = np.float32, np.float64, np.int8, np.uint32
 OURS = {

@@ -17,7 +17,7 @@ from msg_adapters.ownship import to_platform
 from msg_adapters.plots import to_plots
 from msg_adapters.table import from_columns
 from radar_tracker.sensor_config import SensorConfig
-from sonar_tracker.config import SensorConfig as SonarSensorConfig
+from sonar_tracker.sensor_config import SensorConfig as SonarSensorConfig
 
 pytest.importorskip('rosbags')
 from benchmarks.healthy_scenes import contacts, marks, START

@@ -12,7 +12,7 @@ from msg_adapters.bearings import to_bearings
 from msg_adapters.kinds.menu import check_type, message_class
 from msg_adapters.plots import to_plots
 from radar_tracker.sensor_config import SensorConfig
-from sonar_tracker.config import SensorConfig as SonarConfig
+from sonar_tracker.sensor_config import SensorConfig as SonarConfig
 
 rosbags = pytest.importorskip('rosbags.typesys')
 RADAR, SONAR = SensorConfig(), SonarConfig()

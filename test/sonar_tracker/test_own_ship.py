@@ -4,8 +4,9 @@
 
 import numpy as np
 
-from sonar_tracker.config import SensorConfig, SonarTrackerConfig
+from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.sensor import Sonar
+from sonar_tracker.sensor_config import SensorConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings, Coverage
 from tracking_core.config import with_values

@@ -130,9 +130,9 @@ def test_rain_that_sets_in_is_believed_at_once() -> None:
 
 
 def test_few_plots_make_no_pattern() -> None:
-    """Two dozen plots in one place may be anything."""
+    """Eight plots in one place may be anything."""
     assert ClutterMap.blank(ANGLES).is_flat
-    plots = places(np.full(24, 1e3), np.linspace(0.0, 0.1, 24))
+    plots = places(np.full(8, 1e3), np.linspace(0.0, 0.1, 8))
     assert learnt([plots]).is_flat
     assert not learnt([np.repeat(plots, 2, axis=0)]).is_flat
 

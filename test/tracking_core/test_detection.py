@@ -57,8 +57,18 @@ def test_detection_probability_follows_from_the_looks_that_are_remembered() -> N
     start = RadarTracker(with_values(RadarTrackerConfig(), SITE)).tracks
     history = [0b11, 0b110000, (1 << 60) - 1, 0b1010101010]
     tracks = replace(start, history=np.array(history), hits=np.array([2, 2, 70, 40]))
-    found = detection_probability(tracks, USUAL)
+    usual, nothing = np.full(4, USUAL), np.zeros(4)
+    found = detection_probability(tracks, usual, nothing)
     assert_allclose(found, [0.9, 12.0 / 16.0, 0.9, 0.6])  # the last one is full
+    assert_allclose(detection_probability(tracks, nothing, nothing), 0.0)  # outside the coverage
+
+
+def test_looks_count_little_among_strange_plots() -> None:
+    """Two of six, with no strange plots in the gate, a tenth of one, and many."""
+    start = RadarTracker(with_values(RadarTrackerConfig(), SITE)).tracks
+    tracks = replace(start, history=np.full(3, 0b110000), hits=np.full(3, 2))
+    found = detection_probability(tracks, np.full(3, USUAL), np.array([0.0, 0.1, 1e9]))
+    assert_allclose(found, [12.0 / 16.0, 11.0 / 13.0, 0.9])
 
 
 @pytest.mark.parametrize('bits', [0, 1, 0b1011, (1 << 60) - 1])

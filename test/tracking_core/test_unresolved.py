@@ -11,8 +11,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 import pytest
 
 from sonar_tracker.build import build_setup
-from sonar_tracker.config import SensorConfig, SonarTrackerConfig
+from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.sensor import Sonar
+from sonar_tracker.sensor_config import SensorConfig
 from tracking_core.batches import Bearings, Coverage, Mixture, Scan, Tracks
 from tracking_core.config import with_values
 from tracking_core.density import Density
