@@ -10,7 +10,7 @@ import numpy as np
 
 from tracking_core.association.clusters import clusters
 from tracking_core.batches import Bools, Floats, Ints, Scan, Tracks
-from tracking_core.chances import TINY
+from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
 from tracking_core.composition import Setup
 from tracking_core.density import Density
 from tracking_core.detection import detection_probability
@@ -50,7 +50,7 @@ class Look:
             ended=np.concatenate([self.ended, second.ended]),
             broken=self.broken + second.broken,
             claimed=claimed,
-            waiting=second.waiting & (claimed == 0.0),
+            waiting=second.waiting & (claimed < MORE_LIKELY_THAN_NOT),
             passed=second.passed | np.isin(second.tracks.id, self.tracks.id[self.passed]),
             pairs=self.pairs + second.pairs,
             approximate=self.approximate + second.approximate,
@@ -105,7 +105,7 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
         ended=tracks.id[~kept],
         broken=int((due & broken).sum()),
         claimed=claimed,
-        waiting=(waiting | early) & (claimed == 0.0),
+        waiting=(waiting | early) & (claimed < MORE_LIKELY_THAN_NOT),
         passed=worked_on[kept],
         pairs=len(gated.pairs),
         approximate=int(share.approximate.sum()),
