@@ -25,6 +25,7 @@ def test_node_that_is_too_slow_uses_the_newest_plots_and_counts_the_rest(start_n
     """A burst: the last message is answered, each is used or shed, and the wait stays bounded."""
     start_node(RELIABLE, f'max_delay:={MAX_DELAY}')
     probe.meet()
+    probe.spin_until(lambda: probe.is_answered(probe.stamp), 'the last greeting')
     probe.diagnostics.clear()  # greetings may have been shed
     probe.spin_until(lambda: probe.diagnosed('plots shed'), 'diagnostics of now')
     messages, shed = (int(probe.diagnosed(f'plots {what}')) for what in ('messages', 'shed'))
