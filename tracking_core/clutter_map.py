@@ -38,7 +38,7 @@ class ClutterMap:
     @staticmethod
     def blank(space: Space) -> ClutterMap:
         """Return the map of a sensor that has not looked yet."""
-        nothing = np.zeros((SPOKES, rings_of(space)))
+        nothing = np.broadcast_to(0.0, (SPOKES, rings_of(space)))  # takes no memory
         return ClutterMap(nothing, nothing)
 
     @property
