@@ -7,12 +7,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tracking_core.batches import Bools, Floats, Scan
-from tracking_core.clutter_map import cells, ClutterMap, looks_at_spokes
+from tracking_core.clutter_map import (
+    cells,
+    ClutterMap,
+    JUMP,
+    JUMP_PLOTS,
+    looks_at_spokes,
+    MEMORY,
+)  # fmt: skip
 from tracking_core.sensing import Sensor
 
-_MEMORY = 10.0  # looks over which the estimate is averaged
 _LEAST_PLOTS = 0.5  # false plots of a look that are assumed at least: none seen is not none ever
-_JUMP, _JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
 
 
 @dataclass(frozen=True)
@@ -72,8 +77,8 @@ def estimate_density(
 
     """
     usual = old * volume * share
-    if unexplained > _JUMP * usual + _JUMP_PLOTS:
+    if unexplained > JUMP * usual + JUMP_PLOTS:
         looks = 0.0  # the sea got up, or a jammer went on: what was learnt is void
-    looks = min(looks + share, _MEMORY)
+    looks = min(looks + share, MEMORY)
     new = old + min(share / looks, 1.0) * (unexplained / (volume * share) - old)
     return max(new, _LEAST_PLOTS / volume), looks

@@ -22,10 +22,10 @@ TURN = 2.0 * np.pi
 SPOKES, RINGS = 64, 128
 SPOKE_EDGES = np.linspace(0.0, TURN, SPOKES + 1)  # [rad]
 RING_EDGES = np.concatenate([[0.0], 5.0 * 2.0 ** (np.arange(1.0, RINGS) / 7.0), [np.inf]])  # [m]
-_MEMORY = 10.0  # looks over which plots are counted
+MEMORY = 10.0  # looks over which plots are counted
 _FEWEST = 10.0  # plots; fewer make no pattern
 _BLOCK = 8  # cells each way in which a jump is looked for
-_JUMP, _JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
+JUMP, JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,8 @@ class ClutterMap:
         """
         fresh = np.asarray(np.bincount(cell, plots, self.count.size), np.float64)
         fresh, now = fresh.reshape(self.count.shape), looks[:, None]
-        kept: Floats | float = math.exp(-share / _MEMORY)
-        if _blocks(fresh).max() > _JUMP_PLOTS:  # where rain sets in, the calm before is void
+        kept: Floats | float = math.exp(-share / MEMORY)
+        if _blocks(fresh).max() > JUMP_PLOTS:  # where rain sets in, the calm before is void
             usual = self.count * (now / np.maximum(self.looks, 1e-9))
             kept = np.where(_have_jumped(fresh, usual), 0.0, kept)
         return ClutterMap(kept * self.count + fresh, kept * self.looks + now)
@@ -113,7 +113,7 @@ def _turns(begin: float, end: float) -> Floats:
 
 def _have_jumped(plots: Floats, usual: Floats) -> Bools:
     """Return which cells (A, R) are in a block with far more plots than usual."""
-    jumped = _blocks(plots) > _JUMP * _blocks(usual) + _JUMP_PLOTS
+    jumped = _blocks(plots) > JUMP * _blocks(usual) + JUMP_PLOTS
     rings = plots.shape[1] // jumped.shape[1]
     return np.asarray(jumped.repeat(_BLOCK, axis=0).repeat(rings, axis=1))
 
