@@ -84,3 +84,26 @@ def test_memory_of_another_radar_is_refused_and_changes_nothing():
     with pytest.raises(ValueError, match='antenna'):
         recall(tracker, memory)
     assert all(value is before[name] for name, value in vars(tracker).items())
+
+
+def test_memory_of_a_radar_that_cannot_be_is_refused():
+    """Of one dimension, say, in a file that somebody wrote."""
+    with pytest.raises(ValueError, match='a radar of 1 dimensions'):
+        recall(tracker_of(), {**remember(tracker_of()), 'dimensions': 1})
+
+
+def test_recalled_radar_knows_how_its_antenna_turns_and_half_a_turn():
+    """Six sectors to a turn, each with three plots; recalled in the middle of one."""
+    tracker, other = (tracker_of(scan__assembly='rotation') for _ in range(2))
+    for sector in range(33):
+        azimuth = (sector + np.array([0.2, 0.5, 0.8])) * np.pi / 3.0
+        time = azimuth / (2.0 * np.pi) * PERIOD
+        plots = replace(Plots.polar(time, np.full(3, 1e4), azimuth), stamp=sector * PERIOD / 6.0)
+        if sector == 20:
+            recall(other, remember(tracker))
+            assert other.antenna.rotation_rate == pytest.approx(2.0 * np.pi / PERIOD)
+        tracker.track(plots)
+        if sector >= 20:
+            other.track(plots)
+            assert other.tracks.time.tolist() == tracker.tracks.time.tolist()
+    assert len(other.tracks) == 18

@@ -86,6 +86,23 @@ def test_restored_session_goes_on_to_the_byte(kept, sensor, path):
         assert kept.scan(number) == other.scan(number)
 
 
+def test_what_is_remembered_is_all_and_does_not_change(kept, sensor, path, tmp_path):
+    """The restored session remembers what was in the file; a memory is of its moment."""
+
+    def written(memory):
+        write_snapshot(tmp_path / 'again', memory)
+        return (tmp_path / 'again').read_bytes()
+
+    instrument = Station(sensor, path, kept.now).session.instrument
+    recalled, stored = instrument.remember(), read_snapshot(path)['tracker']
+    reserved = replace(stored['state'], next_id=recalled['state'].next_id)
+    assert written(recalled) == written({**stored, 'state': reserved})
+    memory = kept.session.instrument.remember()
+    before = written(memory)
+    kept.scan(SCANS)
+    assert written(memory) == before
+
+
 def test_restored_three_dimensional_radar_goes_on(path):
     """What kind of radar it is was learnt from its plots, and is in the file too."""
     stations = [Station('radar', path)]
