@@ -9,7 +9,17 @@ from numpy.testing import assert_allclose
 import pytest
 from scipy.stats import chi2
 
-from radar_tracker.conversion import BIAS_LIMIT, linearised, to_cartesian, to_polar, unbiased
+from radar_tracker.conversion import (
+    azimuth_of,
+    BIAS_LIMIT,
+    blurred,
+    farthest,
+    linearised,
+    to_cartesian,
+    to_polar,
+    unbiased,
+)
+from tracking_core.batches import Plots
 
 POINTS = 10_000
 
@@ -187,3 +197,33 @@ def test_to_cartesian_is_regular_at_the_origin_and_the_zenith() -> None:
             sizes = np.sqrt(np.linalg.eigvalsh(covariance[0]))
             arm = max(polar[0], sd[0, 0])
             assert sizes[0] >= min(arm * 2e-3, 50.0) * 0.9  # cos of an elevation of 0.2
+
+
+@pytest.mark.parametrize('dimensions', [2, 3])
+def test_blurred_equals_linearised_where_j_is_regular(dimensions: int) -> None:
+    """Far from origin and zenith its axes, scaled, are those of J."""
+    polar, sd = random_polar(7, dimensions)
+    regular = polar[:, 0] > sd[:, 0]
+    polar, sd = polar[regular], sd[regular]
+    assert relative_error(blurred(polar, sd), linearised(polar, sd)[1]) < 1e-12
+
+
+def test_blurred_by_hand_at_the_origin_and_the_zenith() -> None:
+    """As unsure across as at the range noise; straight up as unsure in azimuth as in elevation."""
+    sd = np.array([[50.0, 2e-3, 4e-3]])
+    origin = blurred(np.array([[0.0, np.pi / 2.0, 0.0]]), sd)[0]
+    assert_allclose(origin, np.diag([0.1, 50.0, 0.2]) ** 2, atol=1e-12)
+    zenith = blurred(np.array([[1e4, 0.7, np.pi / 2.0]]), sd)[0]
+    assert_allclose(zenith, np.diag([40.0, 40.0, 50.0]) ** 2, atol=1e-8)
+
+
+def test_azimuth_and_distance_are_told_by_polar_or_by_cartesian_columns() -> None:
+    """Heights count for a 3-D radar only, where they are known."""
+    polar = Plots.polar(np.zeros(2), np.array([3e3, 1e3]), np.array([0.4, -2.0]))
+    assert_allclose(azimuth_of(polar, is_polar=True), [0.4, -2.0])
+    assert farthest(polar, True, 2) == 3e3
+    place = np.array([[-300.0, 400.0, 1200.0], [600.0, 0.0, np.nan]])
+    plots = Plots.cartesian(np.zeros(2), place)
+    assert_allclose(azimuth_of(plots, is_polar=False), [np.arctan2(4.0, -3.0), 0.0])
+    assert farthest(plots, False, 2) == pytest.approx(600.0)
+    assert farthest(plots, False, 3) == pytest.approx(1300.0)

@@ -4,13 +4,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.testing import assert_allclose
 import pytest
 
-from tracking_core.batches import Coverage
+from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.sensor import Radar
+from tracking_core.batches import Coverage, Scan
 from tracking_core.clutter_map import (
     cells,
     ClutterMap,
@@ -118,6 +121,68 @@ def test_map_goes_on_past_a_whole_turn() -> None:
     assert_allclose(inside, 60.0 / (4e3 * 0.6), rtol=0.3)
 
 
+def test_relief_turns_with_the_world() -> None:
+    """A map turned by some spokes has the same relief in places that are turned as well."""
+    rng = np.random.default_rng(6)
+    count, looks = rng.poisson(2.0, (SPOKES, RINGS)) * 1.0, rng.uniform(1.0, 9.0, (SPOKES, RINGS))
+    distance, azimuth = rng.uniform(0.0, FARTHEST, 400), rng.uniform(0.0, 2.0 * np.pi, 400)
+    reliefs = [
+        Pattern(
+            ClutterMap(np.roll(count, turned, axis=0), np.roll(looks, turned, axis=0)),
+            1e-3, POINTS, HERE, 0, DEPTH,
+        ).relief(places(distance, azimuth + 2.0 * np.pi * turned / SPOKES))
+        for turned in (0, 5, 32, -5)
+    ]  # fmt: skip
+    for other in reliefs[1:]:
+        assert_allclose(other, reliefs[0], rtol=1e-9)
+
+
+@pytest.mark.parametrize(('nearest', 'farthest'), [(0.0, 20e3), (700.0, 20e3), (700.0, 5e3)])
+def test_pattern_knows_the_space_that_the_radar_sees(nearest: float, farthest: float) -> None:
+    """Its cells are all of it; nearer and farther places are as the nearest and farthest ring."""
+    sensor = RadarTrackerConfig().sensor
+    radar = Radar(replace(sensor, range_min=nearest, sector_width=2.0), 2, is_polar=True)
+    M, coverage = 1, Coverage(0.0, 0.0, sensor_position=(50.0, 60.0, 0.0), sector_width=2.0)
+    scan = Scan(
+        np.zeros(M), np.zeros((M, 2)), np.zeros((M, 2, 2)), np.zeros(M), np.zeros(M), np.zeros(M),
+        np.zeros(M), np.zeros((M, 3)), np.zeros((M, 3)), coverage,
+        volume=radar.plot_space_volume(farthest),
+    )  # fmt: skip
+    rng = np.random.default_rng(7)
+    known = ClutterMap(rng.poisson(2.0, (SPOKES, RINGS)) * 1.0, np.ones((SPOKES, RINGS)))
+    pattern = Pattern.of(known, 1e-3, scan, radar)
+    cells_a_ring = SPOKES * 2.0 / (2.0 * np.pi)
+    assert pattern.depth.sum() * cells_a_ring == pytest.approx(scan.volume, rel=1e-3)
+    assert (pattern.depth > 0.0).all()
+    edges = RING_EDGES[pattern.first :][: len(pattern.depth) + 1]
+    assert edges[0] <= nearest < edges[1]
+    assert edges[-2] < farthest <= edges[-1]
+    distance = np.array([1e-3, 0.5 * (edges[0] + edges[1]), farthest, 1e7])
+    relief = pattern.relief(places(distance, 0.5) + np.array([50.0, 60.0]))
+    assert_allclose(relief[[0, 3]], relief[[1, 2]])
+
+
+def test_only_blocks_with_a_jump_forget() -> None:
+    """Eight spokes by eight rings; for a sonar, eight spokes."""
+    for space, size in ((POINTS, 8), (ANGLES, 1)):
+        rings = RINGS if space is POINTS else 1
+        old = ClutterMap(np.ones((SPOKES, rings)), np.full((SPOKES, rings), 5.0))
+        plots, spoke, ring = 200.0, 20, 43 % rings
+        new = old.add(np.array([spoke * rings + ring]), np.array([plots]), ONCE, 1.0)
+        forgotten = np.zeros((SPOKES, rings), bool)
+        forgotten[16:24, ring // 8 * 8 : ring // 8 * 8 + size] = True
+        assert_allclose(new.looks, np.where(forgotten, 1.0, 1.0 + 5.0 * np.exp(-0.1)))
+
+
+def test_turns_of_clutter_go_from_none_to_all() -> None:
+    """By hand: a quarter of the plots in the first spoke, the rest in the last one."""
+    count = np.zeros((SPOKES, 1))
+    count[0], count[-1] = 1.0, 3.0
+    known, spoke = ClutterMap(count, count), 2.0 * np.pi / SPOKES
+    turns = [known.turns_of_clutter(k * spoke) for k in (0.0, 0.5, 1.0, 63.0, 63.5, 64.5, -1.0)]
+    assert_allclose(turns, [0.0, 0.125, 0.25, 0.25, 0.625, 1.125, -0.75])
+
+
 def test_rain_that_sets_in_is_believed_at_once() -> None:
     """Where there are suddenly many plots, the calm before is void, but only there."""
     rng = np.random.default_rng(5)
@@ -179,6 +244,7 @@ def test_marks_of_a_turn_go_by_its_clutter() -> None:
     ]
     assert 26 <= back[7] <= 29
     assert sum(back) == 30
+    assert share_of_faint(30, Coverage(0.0, 6.0, 0.0, 3.0 * np.pi), density) == 30
 
 
 def test_existence_is_likelier_where_the_clutter_is_thin() -> None:

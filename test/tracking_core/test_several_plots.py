@@ -95,3 +95,31 @@ def test_gather_takes_what_waited_and_what_is_not_measured() -> None:
     one = gathered(scan, replace(held, coverage=Coverage(-1.0, 0.0)))
     assert_allclose(one.position, [[3020.0 / 3.0, 50.0 / 3.0, 9.0]])
     assert one.coverage == scan.coverage
+
+
+def test_no_plot_is_no_contact() -> None:
+    """An empty scan stays as it is."""
+    nothing = scan_of(np.zeros((0, 2)))
+    assert gathered(nothing) is nothing
+
+
+def test_range_rates_differ_by_noise_and_by_how_askew_a_contact_is_seen() -> None:
+    """By hand: 3 sqrt(2) sd, and speeds of both times 10 m over 100 m of range."""
+    place = np.array([[100.0, 0.0], [100.0, 10.0]])
+    for sd, ship in ((1.0, 0.0), (2.0, 0.0), (1.0, 30.0)):
+        limit = 3.0 * np.sqrt(2.0) * sd + (20.0 + ship) * 0.1
+        for part, contacts in ((0.99, 1), (1.01, 2)):
+            scan = replace(
+                scan_of(place + np.array([500.0, -300.0]), rate=np.array([0.0, part * limit])),
+                range_rate_variance=np.full(2, sd**2),
+                sensor_position=np.tile([500.0, -300.0, 0.0], (2, 1)),
+                sensor_velocity=np.tile([0.6 * ship, 0.8 * ship, 5.0], (2, 1)),
+            )
+            assert len(gathered(scan)) == contacts
+
+
+def test_plots_of_half_the_interval_apart_are_of_two_looks() -> None:
+    """Less than that is one look."""
+    place = np.array([[1000.0, 0.0], [1010.0, 0.0]])
+    for time, contacts in ((0.49 * INTERVAL, 1), (0.5 * INTERVAL, 2)):
+        assert len(gathered(scan_of(place, np.array([0.0, time])))) == contacts
