@@ -86,9 +86,8 @@ def cells(space: Space, origin: Point, position: Floats) -> Ints:
     """Return the cells (K,) of places (K, d), the sensor being at the origin."""
     distance, azimuth = space.seen_from(origin, position)
     spoke = np.floor(azimuth * (SPOKES / TURN)).astype(np.int64) % SPOKES
-    rings = rings_of(space)
-    ring = np.minimum(RING_EDGES.searchsorted(distance, 'right') - 1, rings - 1)
-    return np.asarray(spoke * rings + ring)
+    ring = RING_EDGES.searchsorted(distance, 'right') - 1
+    return np.asarray(spoke * rings_of(space) + ring)
 
 
 def looks_at_spokes(coverage: Coverage) -> Floats:

@@ -17,7 +17,7 @@ import numpy as np
 from tracking_core.association.clusters import renumber
 from tracking_core.batches import Floats, Ints, Scan
 from tracking_core.linalg import sum_by_track
-from tracking_core.rows import change, concatenate, take
+from tracking_core.rows import change, concatenate
 from tracking_core.space import Space
 
 _RATE_SIGMAS = 3.0  # by how much of their noise range rates of one contact may differ
@@ -117,7 +117,6 @@ def _different(one: Ints, other: Ints, plots: int) -> tuple[Ints, Ints]:
 def _one_each(scan: Scan, contact: Ints) -> Scan:
     """Return the mean of the plots of each contact, no surer than one of them."""
     count = contact.max() + 1
-    _, first = np.unique(contact, return_index=True)
 
     def mean(values: Floats) -> Floats:
         known = np.isfinite(values)
@@ -129,4 +128,4 @@ def _one_each(scan: Scan, contact: Ints) -> Scan:
         'time', 'position', 'covariance', 'range_rate', 'range_rate_variance', 'snr',
         'clutter_volume', 'sensor_position', 'sensor_velocity',
     )  # fmt: skip
-    return change(take(scan, first), **{name: mean(getattr(scan, name)) for name in names})
+    return change(scan, **{name: mean(getattr(scan, name)) for name in names})

@@ -215,6 +215,8 @@ def test_blurred_by_hand_at_the_origin_and_the_zenith() -> None:
     assert_allclose(origin, np.diag([0.1, 50.0, 0.2]) ** 2, atol=1e-12)
     zenith = blurred(np.array([[1e4, 0.7, np.pi / 2.0]]), sd)[0]
     assert_allclose(zenith, np.diag([40.0, 40.0, 50.0]) ** 2, atol=1e-8)
+    near = np.array([[10.0, 0.3, 0.2]])
+    assert_allclose(to_cartesian(near, sd)[1], blurred(near, sd))
 
 
 def test_azimuth_and_distance_are_told_by_polar_or_by_cartesian_columns() -> None:

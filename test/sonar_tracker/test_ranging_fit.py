@@ -14,7 +14,7 @@ from scipy.optimize import least_squares
 from sonar_tracker.bearing_history import PastMarks
 from sonar_tracker.ranging_config import RangingConfig
 from sonar_tracker.ranging_fit import fit
-from sonar_tracker.ranging_model import compare, courses, distances, Legs, legs_of
+from sonar_tracker.ranging_model import compare, courses, distances, Legs, legs_of, residuals
 from sonar_tracker.ranging_verdict import judge
 from studies.v0_ranging import Case, range_bound, scene
 from tracking_core.linalg import wrap_angle
@@ -94,7 +94,8 @@ def test_slopes_are_derivatives() -> None:
     """The slope of the bearings and of the course, against differences."""
     legs = legs_of(points(8))
     state = exact(legs)
-    _, slope = compare(state, legs)
+    residual, slope = compare(state, legs)
+    assert_allclose(residuals(state, legs), residual)
     _, jacobian = courses(state, legs)
     for n in range(4):
         step = 1e-6 * np.eye(4)[n]

@@ -160,6 +160,7 @@ def test_pattern_knows_the_space_that_the_radar_sees(nearest: float, farthest: f
     distance = np.array([1e-3, 0.5 * (edges[0] + edges[1]), farthest, 1e7])
     relief = pattern.relief(places(distance, 0.5) + np.array([50.0, 60.0]))
     assert_allclose(relief[[0, 3]], relief[[1, 2]])
+    assert abs(relief[1] / relief[2] - 1.0) > 0.1
 
 
 def test_only_blocks_with_a_jump_forget() -> None:

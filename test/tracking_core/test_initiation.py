@@ -175,6 +175,19 @@ def test_share_of_faint_is_right_over_a_turn_and_fair_over_many(
     assert shares.min() >= 0
 
 
+@pytest.mark.parametrize('turn', [1.0, 3.0, 30.0])
+def test_share_of_faint_is_fair_however_fast_the_antenna_turns(turn: float) -> None:
+    """Ten in a turn of 32 sectors: over 100 turns each sector has its part."""
+    angle = 2.0 * np.pi / 32.0
+    shares = np.array([
+        share_of_faint(10, Coverage(
+            k * turn / 32.0, (k + 1) * turn / 32.0, k % 32 * angle, angle
+        ), THIN)
+        for k in range(3200)
+    ]).reshape(100, 32)  # fmt: skip
+    assert_allclose(shares.mean(axis=0), 10.0 / 32.0, atol=0.05)
+
+
 def test_share_of_faint_of_a_look_everywhere_is_all() -> None:
     """Of a full turn, too."""
     assert share_of_faint(30, Coverage(0.0, 4.0), THIN) == 30

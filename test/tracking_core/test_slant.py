@@ -34,9 +34,12 @@ def test_plot_without_height_is_brought_in_to_where_it_is() -> None:
     found = over_ground(seen[rows], rows, np.full(2, 3050.0), scan)
     expected = np.array([[3000.0, 4000.0, 3000.0], [2400.0, 3200.0, np.nan]])
     assert_allclose(found, RADAR + expected)
-    assert_allclose(scan.position, seen)  # as they were
-    too_high = over_ground(seen[:1], np.zeros(1, np.int64), np.full(1, 9e3), scan)
-    assert_allclose(too_high[0, :2], RADAR[:2])
+    near = np.vstack([seen[:1], RADAR])
+    near[1, 2] = np.nan
+    before = near.copy()
+    above = over_ground(near, np.zeros(2, np.int64), np.full(2, 9e3), scan)
+    assert_allclose(above[:, :2], RADAR[None, :2].repeat(2, axis=0))
+    assert_allclose(near, before)
     beside = replace(scan, is_slant=False)
     assert_allclose(over_ground(seen[rows], rows, np.full(2, 3050.0), beside), seen[rows])
 
