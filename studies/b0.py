@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studies.figures import Figures
+from studies.figures import Figures, rms
 from studies.passes import measure, Measured, run
 from tracking_core.batches import Floats, Ints, Mixture
 from tracking_core.composition import Plane
@@ -91,8 +91,8 @@ def figures(records: dict[str, Record], runs: Ints) -> Figures:
     result: dict[str, float] = {}
     for name, record in records.items():
         for span, rows in SPANS.items():
-            result[f'{name} {span} position'] = _rms(record.position[rows][:, runs])
-            result[f'{name} {span} velocity'] = _rms(record.velocity[rows][:, runs])
+            result[f'{name} {span} position'] = rms(record.position[rows][:, runs])
+            result[f'{name} {span} velocity'] = rms(record.velocity[rows][:, runs])
         result[f'{name} onset'] = _onset(record.raised[:, runs])
     for name in records:
         for span in SPANS:
@@ -105,7 +105,7 @@ def plot_error(runs: int) -> float:
     """Return the error of the plots themselves in the manoeuvre [m]."""
     measured, _, _ = scene(runs)
     error = measured.position - truth()[:, None, 0::2]
-    return _rms(np.hypot(error[..., 0], error[..., 1])[SPANS['manoeuvre']])
+    return rms(np.hypot(error[..., 0], error[..., 1])[SPANS['manoeuvre']])
 
 
 def _raised(mixture: Mixture) -> Floats:
@@ -117,7 +117,3 @@ def _onset(raised: Floats) -> float:
     after = raised[ONSET + 1 :] > 0.5
     late = np.argmax(after, axis=0) + 1.0
     return float(np.nanmean(np.where(after.any(axis=0), late, np.nan)))
-
-
-def _rms(values: Floats) -> float:
-    return float(np.sqrt(np.mean(values**2)))

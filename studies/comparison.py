@@ -13,6 +13,7 @@ import numpy as np
 from radar_tracker.build import build_planes
 from radar_tracker.config import RadarTrackerConfig
 from studies.courses import Course
+from studies.figures import rms
 from studies.passes import run, Step
 from tracking_core.batches import Bools, Floats
 from tracking_core.composition import Plane
@@ -73,8 +74,8 @@ def follow(name: str, course: Course) -> Row:
     onset, found = _onset(steps[0], course)
     K, T = plot.shape[:2]
     return Row(
-        {p: _rms(errors.position[r[2:]]) / _rms(plot[r]) for p, r in phases.items()},
-        {p: _rms(errors.velocity[r[2:]]) for p, r in phases.items()},
+        {p: rms(errors.position[r[2:]]) / rms(plot[r]) for p, r in phases.items()},
+        {p: rms(errors.velocity[r[2:]]) for p, r in phases.items()},
         {p: float(errors.nees[r[2:]].mean()) for p, r in phases.items()},
         onset, found, 1e6 * spent / (K * T),
     )  # fmt: skip
@@ -117,7 +118,3 @@ def _onset(steps: list[Step], course: Course, patience: int = 8) -> tuple[float,
     late = np.concatenate(delays)
     found = float(np.isfinite(late).mean())
     return (float(np.nanmean(late)) if found else float('nan')), found
-
-
-def _rms(values: Floats) -> float:
-    return float(np.sqrt(np.mean(values**2)))

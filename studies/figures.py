@@ -17,6 +17,11 @@ from tracking_core.batches import Floats, Ints
 Figures = Mapping[str, float]
 
 
+def rms(values: Floats) -> float:
+    """Return the root of the mean square."""
+    return float(np.sqrt(np.mean(values**2)))
+
+
 @dataclass(frozen=True)
 class Claim:
     """What a figure should be."""

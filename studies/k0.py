@@ -14,7 +14,7 @@ import numpy as np
 from tqdm import tqdm
 
 from studies.cv_ca import cv_ca
-from studies.figures import Figures
+from studies.figures import Figures, rms
 from tracking_core.batches import Association, Floats, Ints, Measurement
 from tracking_core.estimators import AlphaBeta, Estimator, FuzzyAlphaBeta, ImmAlphaBeta, TwoPoint
 
@@ -86,12 +86,12 @@ def tenths(a: float) -> str:
 def figures(errors: Errors, innovations: Floats, runs: Ints) -> Figures:
     """Return all figures, by name, from these runs."""
     result = {
-        'stationary error': _rms(errors['alpha_beta', 0.0][STATIONARY][:, runs]),
-        'stationary innovation': _rms(innovations[STATIONARY][:, runs]),
+        'stationary error': rms(errors['alpha_beta', 0.0][STATIONARY][:, runs]),
+        'stationary innovation': rms(innovations[STATIONARY][:, runs]),
     }
     for (name, a), error in errors.items():
         for span, rows in SPANS.items():
-            result[f'{name} {tenths(a)} {span}'] = _rms(error[rows][:, runs])
+            result[f'{name} {tenths(a)} {span}'] = rms(error[rows][:, runs])
     for a in ACCELERATIONS:
         for span in SPANS:
             g = tenths(a)
@@ -99,7 +99,3 @@ def figures(errors: Errors, innovations: Floats, runs: Ints) -> Figures:
             for name in ('fuzzy', 'kalman'):
                 result[f'{name} gain {g} {span}'] = 1.0 - result[f'{name} {g} {span}'] / base
     return result
-
-
-def _rms(values: Floats) -> float:
-    return float(np.sqrt(np.mean(values**2)))

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from studies.figures import Figures
+from studies.figures import Figures, rms
 from studies.passes import measure, run, Step
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.composition import Plane
@@ -93,12 +93,12 @@ def figures(record: Record, runs: Ints) -> Figures:
         result[f'gate manoeuvre {letter}'] = float(inside[busy, :, axis].mean())
         for output in ('map', 'mmse'):
             sd = record.predicted_sd[output][:, runs, axis]
-            result[f'{output} growth {letter}'] = _rms(sd[grown]) / _rms(sd[calm])
-            ratio = _rms(error[output][first, :, axis]) / _rms(error['plot'][first, :, axis])
+            result[f'{output} growth {letter}'] = rms(sd[grown]) / rms(sd[calm])
+            ratio = rms(error[output][first, :, axis]) / rms(error['plot'][first, :, axis])
             result[f'{output} first contact {letter}'] = ratio
     for output in ('map', 'mmse'):
         for phase, rows in (('manoeuvre', busy), ('quiet', quiet)):
-            ratio = _rms(error[output][rows]) / _rms(error['plot'][rows])
+            ratio = rms(error[output][rows]) / rms(error['plot'][rows])
             result[f'{output} error {phase}'] = ratio
     return result
 
@@ -133,11 +133,6 @@ def _contacts(spans: Spans, first: int = 0, last: int = 0) -> Bools:
     k = np.arange(CONTACTS)
     inside = [(k > start / PERIOD + first) & (k <= end / PERIOD + last) for start, end in spans]
     return np.asarray(np.any(inside, axis=0))
-
-
-def _rms(values: Floats) -> float:
-    """Return the root of the mean square, summed over the axes if there are three."""
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def _on_axes(

@@ -9,14 +9,13 @@ from functools import cached_property
 
 import numpy as np
 
-from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
+from tracking_core.batches import Floats
 from tracking_core.estimators.markov_jump import MarkovJump
 from tracking_core.mode_chain import Chain
 from tracking_core.motion import Motion
 
 
-@dataclass(frozen=True)
-class MarkovJumpJoint:
+class MarkovJumpJoint(MarkovJump):
     """
     Two independent chains of modes as one chain of all pairs, the vertical mode counting fastest.
 
@@ -29,40 +28,12 @@ class MarkovJumpJoint:
 
     """
 
-    horizontal: MarkovJump
-    vertical: MarkovJump
-
-    @cached_property
-    def _filter(self) -> MarkovJump:
-        ground, height = self.horizontal, self.vertical
-        return MarkovJump(
-            tuple(StackedMotion(g, b) for g in ground.motions for b in height.motions),
-            ProductChain(ground.chain, height.chain),
-            tuple(np.kron(_initial(ground), _initial(height))),
+    def __init__(self, horizontal: MarkovJump, vertical: MarkovJump) -> None:
+        super().__init__(
+            tuple(StackedMotion(g, b) for g in horizontal.motions for b in vertical.motions),
+            ProductChain(horizontal.chain, vertical.chain),
+            tuple(np.kron(_initial(horizontal), _initial(vertical))),
         )
-
-    @property
-    def axes(self) -> int:
-        """Number of axes; the state is (position, velocity) on each."""
-        return self.horizontal.axes + self.vertical.axes
-
-    def start(self, mean: Floats, covariance: Floats) -> Mixture:
-        """Return new tracks from means (T, n) and covariances (T, n, n), equal in all modes."""
-        return self._filter.start(mean, covariance)
-
-    def predict(self, mixture: Mixture, dt: Floats) -> Mixture:
-        """Mix the modes and move them over the times dt (T,) [s]."""
-        return self._filter.predict(mixture, dt)
-
-    def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
-        """Compare the pairs with every mode."""
-        return self._filter.innovate(mixture, track, measurement)
-
-    def update(
-        self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association
-    ) -> Mixture:
-        """Update modes and mode probabilities."""
-        return self._filter.update(mixture, track, innovations, association)
 
 
 @dataclass(frozen=True)
