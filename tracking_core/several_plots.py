@@ -10,6 +10,7 @@ of a contact are made one before.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,7 +67,8 @@ class Extent:
         one, other = space.find_pairs(scan.position, np.full((M, d), self.size), scan.position)
         one, other = one[one < other], other[one < other]
         while True:
-            span = np.fmax(high[one], high[other]) - np.fmin(low[one], low[other])
+            shift = _unfolding(low, high, one, other, scan.range_rate_interval)
+            span = np.fmax(high[one], high[other] + shift) - np.fmin(low[one], low[other] + shift)
             span = np.nan_to_num(span)  # what is not measured keeps nobody apart
             extent = np.sqrt((span[:, :d] ** 2).sum(axis=1))
             fits = (extent <= self.size) & (span[:, d] < longest)
@@ -75,8 +77,9 @@ class Extent:
             if len(one) == 0:
                 return renumber(contact, M)[1]
             first, second = _nearest_of_each_other(one, other, extent, M)
-            low[first] = np.fmin(low[first], low[second])
-            high[first] = np.fmax(high[first], high[second])
+            shift = _unfolding(low, high, first, second, scan.range_rate_interval)
+            low[first] = np.fmin(low[first], low[second] + shift)
+            high[first] = np.fmax(high[first], high[second] + shift)
             into = np.arange(M)
             into[second] = first
             contact = into[contact]
@@ -91,6 +94,15 @@ class Extent:
 
 
 ONE_PLOT = Extent(size=0.0, speed_max=0.0)
+
+
+def _unfolding(low: Floats, high: Floats, one: Ints, other: Ints, interval: float) -> Floats:
+    """Return what brings ambiguous range rates, the last column, near those of `one`."""
+    shift = np.zeros((len(one), low.shape[1]))
+    if interval:
+        middle = 0.5 * (low[:, -1] + high[:, -1])
+        shift[:, -1] = interval * np.rint((middle[one] - middle[other]) / interval)
+    return shift
 
 
 def _nearest_of_each_other(
@@ -124,8 +136,24 @@ def _one_each(scan: Scan, contact: Ints) -> Scan:
         number = sum_by_track(known.astype(np.float64), contact, count)
         return np.where(number > 0.0, total / np.maximum(number, 1.0), np.nan)
 
+    has_height = np.isfinite(scan.position).all(axis=1)
+    space = mean(np.where(has_height, scan.clutter_volume, np.nan))  # without: of other units
     names = (
-        'time', 'position', 'covariance', 'range_rate', 'range_rate_variance', 'snr',
-        'clutter_volume', 'sensor_position', 'sensor_velocity',
+        'time', 'position', 'covariance', 'range_rate_variance', 'snr', 'sensor_position',
+        'sensor_velocity',
     )  # fmt: skip
-    return change(scan, **{name: mean(getattr(scan, name)) for name in names})
+    return change(
+        scan,
+        range_rate=_mean_rate(scan, mean),
+        clutter_volume=np.where(np.isfinite(space), space, mean(scan.clutter_volume)),
+        **{name: mean(getattr(scan, name)) for name in names},
+    )
+
+
+def _mean_rate(scan: Scan, mean: Callable[[Floats], Floats]) -> Floats:
+    """Return the mean range rates; ambiguous ones lie on a circle."""
+    if not scan.range_rate_interval:
+        return mean(scan.range_rate)
+    radius = scan.range_rate_interval / (2.0 * np.pi)
+    angle = scan.range_rate / radius
+    return radius * np.arctan2(mean(np.sin(angle)), mean(np.cos(angle)))

@@ -80,6 +80,22 @@ def test_gather_keeps_looks_and_range_rates_apart() -> None:
     assert len(gathered(scan_of(place, rate=np.array([0.0, np.nan])))) == 1
 
 
+def test_ambiguous_range_rates_of_a_contact_may_lie_at_both_ends() -> None:
+    """Of 20 m/s in all, 9.9 and -9.6 are 0.5 apart; three are one and have their mean."""
+    place = np.array([[1000.0, 0.0], [1010.0, 0.0], [1020.0, 0.0], [1030.0, 0.0]])
+    scan = scan_of(place, rate=np.array([9.9, -9.6, 9.4, 0.0]))
+    one = gathered(replace(scan, range_rate_interval=20.0))
+    assert_allclose(one.range_rate, [9.9, 0.0], atol=0.01)
+    assert len(gathered(scan)) == 3
+
+
+def test_plots_with_and_without_height_are_one_among_those_with() -> None:
+    """False plots are counted per m^3 where the height is known, per m^2 elsewhere."""
+    scan = scan_of(np.array([[1000.0, 0.0, np.nan], [1010.0, 0.0, 10.0], [3000.0, 0.0, np.nan]]))
+    one = gathered(replace(scan, clutter_volume=np.array([1e-3, 1e-6, 2e-3])))
+    assert_allclose(one.clutter_volume, [1e-6, 2e-3])
+
+
 def test_range_rates_of_a_contact_near_by_differ_more() -> None:
     """At 30 m a car 5 m wide that drives across shows ends that come and go: 20 m/s times 1/6."""
     near, far = np.array([[30.0, -2.5], [30.0, 2.5]]), np.array([[300.0, -2.5], [300.0, 2.5]])
