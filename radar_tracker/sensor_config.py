@@ -66,7 +66,11 @@ class SensorConfig:
         'nearer to each other are one, too; 0: a contact gives one plot',
     )  # fmt: skip
     dimensions: int = parameter(
-        0, unit='1', doc='2 or 3; 0: as the first plots tell (elevation or z: 3)', low=0, high=3
+        0,
+        unit='1',
+        doc='2 or 3; 0: as the plots tell (elevation or z, before a track is confirmed: 3)',
+        low=0,
+        high=3,
     )
     angle_unit: str = angle_unit()
     azimuth_convention: str = azimuth_convention()

@@ -170,23 +170,26 @@ class RadarTracker:
 
     def _recognise(self, plots: Plots) -> None:
         """Learn from the first plots what radar this is, and how far it sees."""
-        if len(plots) == 0:
-            return
-        if not self.is_known:
-            self.radar = Radar.for_plots(self.config.sensor, plots)
-            tracker = Tracker(build_setup(self.config, self.radar))
-            tracker.reset(self.state.next_id)
-            if self.is_ready and len(self.tracks):  # ordered ones, of these dimensions
-                tracker.state = self.state
-            self.core, self.is_known = tracker, True
-        self._see(farthest(plots, self.radar.is_polar, self.radar.dimensions))
+        if len(plots):
+            radar = Radar.for_plots(self.config.sensor, plots)
+            # A first sector may have no height: none is too late until a track is confirmed.
+            grows = radar.dimensions > self.radar.dimensions and not self.tracks.confirmed.any()
+            if grows or not self.is_known:
+                self._become(radar)
+            self._see(farthest(plots, self.radar.is_polar, self.radar.dimensions))
+
+    def _become(self, radar: Radar) -> None:
+        tracker = Tracker(build_setup(self.config, radar))
+        tracker.reset(self.state.next_id)
+        if self.config.sensor.dimensions and len(self.tracks):  # ordered ones, of these dimensions
+            tracker.state = self.state
+        self.radar, self.core, self.is_known = radar, tracker, True
 
     def _see(self, distance: float) -> None:
         """Take note how far the radar sees, and saw all the time when false plots were counted."""
-        before = self.radar.plot_space_volume(self.farthest)
         if distance > self.farthest > 0.0:
-            share = before / self.radar.plot_space_volume(distance)
-            self.state = replace(self.state, clutter=self.state.clutter.times(share))
+            seen, sees = (self.radar.plot_space_volume(r) for r in (self.farthest, distance))
+            self.state = replace(self.state, clutter=self.state.clutter.times(seen / sees))
         self.farthest = max(self.farthest, distance)
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:

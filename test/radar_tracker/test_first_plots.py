@@ -46,6 +46,24 @@ def test_near_echo_alone_at_first_does_not_keep_tracks_from_starting(nearest):
     assert needed[0] == needed[1] < 8
 
 
+def heights(number, *known):
+    """Return the plots of three contacts in one look, of which some have a height."""
+    elevation = np.where(known, [0.3, 0.2, 0.1], np.nan)
+    return replace(scan(number, [8e3, 12e3, 15e3], [0.0, 1.5, -2.0]), elevation=elevation)
+
+
+def test_first_height_makes_a_radar_3d_until_a_track_is_confirmed():
+    """The first sector may have no plot with a height; a later one ends no tracks."""
+    early, late = tracker_of(), tracker_of()
+    for number in range(10):
+        early.track(heights(number, number > 0, number > 1, number > 2))
+        late.track(heights(number, number > 8, False, False))
+    assert early.radar.dimensions == 3
+    assert early.tracks.confirmed.sum() == 3
+    assert late.radar.dimensions == 2
+    assert late.tracks.id.tolist() == [1, 2, 3]
+
+
 def test_plot_at_the_least_range_is_a_plot():
     """As the only plot so far it leaves no depth to count false plots in."""
     tracker = tracker_of(sensor__range_min=100.0)
