@@ -68,17 +68,20 @@ def share_plots(
     track = gated.pairs.track
     if common is not None:
         existence = np.where(_is_heard(gated, common), common.existence_apart, existence)
-    weight = log(detection_probability * existence)[track] + gated.log_likelihood
+    # What is taken for certain is judged as if all tracks exist: new ones would never get a plot.
+    chance = existence if setup.is_soft else np.ones(len(existence))
+    weight = log(detection_probability * chance)[track] + gated.log_likelihood
     weight = weight - np.log(_other_sources(gated, scan, setup, density))
     detection = detection_probability * setup.gate_probability
-    log_miss = np.log1p(-detection * existence)
+    log_miss = np.log1p(-detection * chance)
     hidden = np.zeros(len(existence))
     if common is None:
         shared = setup.associate(track, gated.pairs.plot, weight, log_miss, len(scan))
     else:
         shared, hidden = _share_in_common(gated, weight, log_miss, scan, setup, density, common)
 
-    exists = 1.0 if setup.is_soft else expit(weight - log(1.0 - existence)[track])
+    odds = log(existence) - log(1.0 - existence)
+    exists = 1.0 if setup.is_soft else expit(weight + odds[track])
     claim = shared.probability * exists
     found = sum_by_track(claim, track, len(existence)) + hidden
     posterior, missed = existence_after(existence, shared.miss, found, detection)

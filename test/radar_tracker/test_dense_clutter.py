@@ -40,3 +40,12 @@ def test_faint_starts_are_a_matter_of_what_they_may_cost() -> None:
         for number in (30, 200)
     )
     assert few < many
+
+
+@pytest.mark.parametrize(('method', 'false_plots'), [('one_point', 15.0), ('two_point', 150.0)])
+def test_doubtful_tracks_get_their_plots_for_certain(method: str, false_plots: float) -> None:
+    """Were a plot taken for clutter because its track is new, no new track would have one."""
+    values = {'association': 'global_nearest', 'initiation.method': method}
+    outcome = watch(false_plots, seed=1, looks=20, **values)
+    assert outcome.held[-1].all()
+    assert outcome.false[-1] == 0

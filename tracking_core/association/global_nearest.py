@@ -21,9 +21,9 @@ def global_nearest(
     """
     Take the joint event with the greatest sum of `log_weight` - `log_miss` for certain.
 
-    This is the mode of the distribution whose marginals `jpda` gives. A pair no better than the
-    miss of its track is never taken, even if no other track wants the plot: at the edge of a
-    gate in dense clutter the plot is more probably clutter. `nearest` would take it.
+    This is the mode of the distribution whose marginals `jpda` gives, if all tracks exist. A pair
+    no better than the miss of its track is never taken, even if no other track wants the plot: at
+    the edge of a gate in dense clutter the plot is more probably clutter. `nearest` would take it.
     See `Associator` for the arguments.
 
     References
