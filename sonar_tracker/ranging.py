@@ -75,7 +75,7 @@ class Ranging:
         self.history = BearingHistory(self.config.points, self.config.window)
         self.courses = Courses.unknown(0)
 
-    def add(self, tracks: Tracks, coverage: Coverage) -> None:
+    def add(self, tracks: Tracks, coverage: Coverage, heading_sd: float) -> None:
         """
         Hear what a cycle brought, and fit the tracks whose turn it is.
 
@@ -85,13 +85,15 @@ class Ranging:
             After the cycle, followed by a filter that is `Marked`.
         coverage : Coverage
             Of the cycle: says where the sensor was.
+        heading_sd : float
+            Of own ship, as it tells [rad].
 
         """
         bearing, weight = last_marks(tracks.planes[0])
         own = coverage.sensor_at(tracks.time)[:, :2]
         rows = np.flatnonzero(tracks.confirmed)
         self.hear(tracks.id[rows], tracks.time[rows], bearing[rows], weight[rows], own[rows])
-        self.fit_in_turn()
+        self.fit_in_turn(heading_sd)
 
     def hear(self, ids: Ints, time: Floats, bearing: Floats, weight: Floats, own: Floats) -> None:
         """
@@ -111,13 +113,13 @@ class Ranging:
         rows = np.flatnonzero((weight > 0.0) & (time > self.history.newest()))
         self.history.add(rows, time[rows], bearing[rows], weight[rows], own[rows])
 
-    def fit_in_turn(self) -> None:
-        """Fit those tracks that have waited longest."""
+    def fit_in_turn(self, heading_sd: float = 0.0) -> None:
+        """Fit those tracks that have waited longest; own ship's heading has this sd [rad]."""
         waiting = np.flatnonzero(self.history.newest() > self.courses.time)
         order = np.argsort(self.courses.time[waiting], kind='stable')
-        self.fit_rows(waiting[order[: self.config.tracks_per_cycle]])
+        self.fit_rows(waiting[order[: self.config.tracks_per_cycle]], heading_sd)
 
-    def fit_rows(self, rows: Ints) -> None:
+    def fit_rows(self, rows: Ints, heading_sd: float = 0.0) -> None:
         """Fit the tracks of these rows; those of no straight course start anew."""
         if len(rows) == 0:
             return
@@ -135,7 +137,7 @@ class Ranging:
         if len(rows) == 0:
             return
         best = fit(legs, self.config.range_min, self.config.range_max)
-        verdict = judge(best, legs, self.config)
+        verdict = judge(best, legs, self.config, heading_sd)
         self.history.forget_older_half(rows[verdict.bent])
         observable = verdict.observable
         found.state[rows[observable]] = verdict.state[observable]

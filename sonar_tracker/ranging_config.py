@@ -26,6 +26,11 @@ class RangingConfig:
         0.003, unit='m/s/sqrt(s)', low=0.0, high=10.0,
         doc='drift of the velocity of contacts that a range must stand to be observable',
     )  # fmt: skip
+    heading_noise: float = parameter(
+        0.0035, unit='rad', low=0.0, high=0.5,
+        doc="error of own ship's heading, lasting about half a minute, that a range must stand; "
+        'more where own ship tells more',
+    )  # fmt: skip
     false_alarm: float = parameter(
         1e-4, unit='1', low=1e-12, high=0.1,
         doc='chance that the marks of a straight course are taken for those of another motion',

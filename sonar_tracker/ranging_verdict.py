@@ -18,6 +18,7 @@ from tracking_core.linalg import inverse, symmetrise
 
 _UNKNOWNS = 4
 _WORST_CONDITION = 1e10  # of the information; beyond it the inverse is rounding
+_HEADING_MEMORY = 30.0  # s, over which an error of the heading is forgotten
 _SURELY = 3.0  # sds of the noise that neighbouring marks show
 _LEAST_NOISE = 0.25  # variance over the one that is told; below it averaged marks show as bends
 _EDGE = 1e-3  # a range as near to its limits as this has been stopped there
@@ -39,13 +40,22 @@ def may_tell(legs: Legs, config: RangingConfig) -> Bools:
     return np.asarray(information * config.relative_sd**2 > config.range_min**2)
 
 
-def judge(best: Fit, legs: Legs, config: RangingConfig) -> Verdict:
+def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0) -> Verdict:
     """
     Say which ranges are observable.
 
     A range is, if the information is well conditioned, if the relative sd of the range is small,
-    even if the contact strays from its course a little, and if the residuals are as small and as
-    white as those of a straight course. How noisy the marks are the residuals tell, too.
+    even if the contact strays from its course a little and own ship's heading is wrong, and if the
+    residuals are as small and as white as those of a straight course. How noisy the marks are the
+    residuals tell, too; a heading that is wrong for a while they do not.
+
+    Parameters
+    ----------
+    best, legs, config
+        The fits, to which marks, and how they are believed.
+    heading_sd : float
+        That own ship tells [rad]; less than `config.heading_noise` is not believed.
+
     """
     scale = 1.0 / np.sqrt(np.maximum(np.einsum('taa->ta', best.information), TINY))
     unit = best.information * scale[:, :, None] * scale[:, None, :]
@@ -54,9 +64,12 @@ def judge(best: Fit, legs: Legs, config: RangingConfig) -> Verdict:
     bound = inverse(unit)[0] * scale[:, :, None] * scale[:, None, :]
     count = (legs.weight > 0.0).sum(axis=1)
     noise = _noise(best, count)
-    straying = _straying(best, legs, bound, config.velocity_noise)
+    # How u reach follows each mark (T, K) [1/rad]: the fit's gain on the marks is bound slope^T.
+    gain = (best.slope @ bound[:, :, 3:])[..., 0] * np.sqrt(legs.weight)
+    astray = config.velocity_noise**2 * _straying(best, legs, gain)
+    astray += max(config.heading_noise, heading_sd) ** 2 * _misheaded(legs, gain)
     bound *= np.maximum(noise, 1.0)[:, None, None]
-    range_variance = bound[:, 3, 3] + straying
+    range_variance = bound[:, 3, 3] + astray
     observable = sound & (range_variance < (config.relative_sd * best.state[:, 3]) ** 2)
 
     distance = legs.reach / best.state[:, 3]
@@ -92,15 +105,10 @@ def _chance(best: Fit, noise: Floats, count: Ints) -> Floats:
     return np.asarray(2.0 * np.minimum(size, evenness))
 
 
-def _straying(best: Fit, legs: Legs, bound: Floats, velocity_noise: float) -> Floats:
-    """
-    Return what a randomly drifting velocity adds to the variance of u reach (T,).
-
-    The fit weights the marks as if there was none: its gain on the marks is bound slope^T.
-    """
+def _straying(best: Fit, legs: Legs, gain: Floats) -> Floats:
+    """Return what a velocity that drifts by 1 m/s/sqrt(s) adds to the variance of u reach (T,)."""
     distance, direction = distances(best.state, legs)
-    gain = (best.slope @ bound[:, :, 3:])[..., 0]
-    moved = gain * np.sqrt(legs.weight) / distance  # (T, K) change of u reach by metres across
+    moved = gain / distance  # (T, K) change of u reach by metres across
     age = -legs.tau * legs.span[:, None]
     variance = np.zeros(len(age))
     for part in (moved * np.cos(direction), moved * np.sin(direction)):
@@ -110,4 +118,21 @@ def _straying(best: Fit, legs: Legs, bound: Floats, velocity_noise: float) -> Fl
         younger = np.append(age[:, 1:], np.zeros((len(age), 1)), axis=1)
         old, young = start - rate * age, start - rate * younger
         variance += ((age - younger) * (old**2 + old * young + young**2)).sum(axis=1) / 3.0
-    return np.asarray(velocity_noise**2 * variance)
+    return variance
+
+
+def _misheaded(legs: Legs, gain: Floats) -> Floats:
+    """
+    Return what a heading with an sd of 1 rad adds to the variance of u reach (T,).
+
+    Its error is that of all marks, and is forgotten exponentially. What older marks do to each is
+    summed in strides that double: so there is no matrix of marks by marks.
+    """
+    step = np.diff(legs.tau, axis=1, prepend=legs.tau[:, :1]) * legs.span[:, None]
+    kept = np.exp(-np.maximum(step, 0.0) / _HEADING_MEMORY)  # rows without a mark: tau 0, no gain
+    total, stride = gain.copy(), 1
+    while stride < gain.shape[1]:
+        total[:, stride:] += kept[:, stride:] * total[:, :-stride]
+        kept[:, stride:] *= kept[:, :-stride]
+        stride *= 2
+    return np.asarray((gain * (2.0 * total - gain)).sum(axis=1))

@@ -163,7 +163,7 @@ class SonarTracker:
         tracks = self.core.step(self.sonar.measure(bearings, at_marks, self.coverage))
         if self.config.ranging.enabled and end > self.heard:
             self.heard = end
-            self.ranging.add(tracks, self.coverage)
+            self.ranging.add(tracks, self.coverage, self.sonar.heading_sd)
         return tracks
 
     def ranges(self) -> RangeEstimates:

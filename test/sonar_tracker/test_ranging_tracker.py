@@ -142,7 +142,7 @@ def test_range_is_kept_while_the_bow_swings_across_the_contact(seed) -> None:
     steps = 5.0 * np.stack([np.cos(heading), np.sin(heading)], axis=1)[:-1]
     place = np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
     ship = platform_of(time, place, heading)
-    values = {'sensor.bearing_sd': 0.004, 'sensor.array': 'linear'}
+    values = {'sensor.bearing_sd': 0.004, 'sensor.array': 'linear', 'ranging.heading_noise': 0.0}
     tracker = SonarTracker(with_values(SonarTrackerConfig(), values))
     rng, told = np.random.default_rng(seed), []
     for k in range(1, 1400, 2):
