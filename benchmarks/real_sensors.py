@@ -32,6 +32,7 @@ NOTHING: Values = {}
 SHIP, CAR = {'sensor.contact_size': 250}, {'sensor.contact_size': 4.5}
 TWENTY, TEN = {'sensor.range_rate_interval': 40}, {'sensor.range_rate_interval': 20}
 SLOWER = {'initiation.speed_sd': 12}
+LOW, MANY = {'sensor.elevation_span': 0.3}, {'existence.new_contacts': 1000}
 PATIENT = {'sensor.detection_probability': 0.4}
 # Each scene, and what is set in turn.
 CASES: dict[str, tuple[Callable[[int], Scene], tuple[Values, ...]]] = {
@@ -53,10 +54,10 @@ CASES: dict[str, tuple[Callable[[int], Scene], tuple[Values, ...]]] = {
     'aircraft, P_D 0.95 to 0.4': (partial(aircraft, chance=by_range), (NOTHING,)),
     'aircraft, notch': (partial(aircraft, chance=with_notch), (NOTHING, PATIENT)),
     'aircraft, 3 in 10 no height': (partial(aircraft, without_height=0.3), (NOTHING,)),
-    'strobe': (strobe, (NOTHING,)),
+    'strobe': (strobe, (NOTHING, LOW)),
     'strobe, blanked': (partial(strobe, blanked=True), (NOTHING,)),
     'strobe, silent': (partial(strobe, amount=0.0), (NOTHING,)),
-    'birds': (birds, (NOTHING,)),
+    'birds': (birds, (NOTHING, MANY)),
     'second time around': (second_time, (NOTHING,)),
     'second time around, leaps': (partial(second_time, stagger=STAGGER), (NOTHING,)),
 }  # fmt: skip

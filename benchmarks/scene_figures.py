@@ -110,10 +110,11 @@ def line(name: str, runs: Sequence[Figures]) -> str:
     """Return a row of the table: mean and standard error over the runs."""
     columns = np.array([astuple(run) for run in runs]).T
     cost = f'{columns[6].mean():.1f}, at most {columns[7].max():.0f}'
-    return '| ' + ' | '.join([name, *map(_mean, columns[:6]), cost]) + ' |'
+    return '| ' + ' | '.join([name, *map(mean_of, columns[:6]), cost]) + ' |'
 
 
-def _mean(values: Floats) -> str:
+def mean_of(values: Floats) -> str:
+    """Return mean and standard error of what is known, in words."""
     known = values[np.isfinite(values)]
     if len(known) < 2:
         return f'{known[0]:.3g}' if len(known) else 'never'
