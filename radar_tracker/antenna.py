@@ -12,9 +12,10 @@ from __future__ import annotations
 import numpy as np
 
 from radar_tracker.gaps import is_missing, STAMPS
-from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, TWO_PI
+from radar_tracker.rotation import find_rate, IN_STEP, refine_rate
 from radar_tracker.sweep import Beam, Sweep
 from tracking_core.batches import Floats, NO_GAPS, Plots
+from tracking_core.linalg import TURN
 
 ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
@@ -61,7 +62,7 @@ class Antenna:
         """Time between a plot and the stamp of its message that can be true [s]."""
         if not self._rate:
             return np.inf
-        return _LONGEST * max(TWO_PI / abs(self._rate), self._interval)
+        return _LONGEST * max(TURN / abs(self._rate), self._interval)
 
     @property
     def _interval(self) -> float:
@@ -110,7 +111,7 @@ class Antenna:
 
         The plots of the last messages must fit in; as much as they leave open, nothing changes.
         """
-        period = TWO_PI / abs(self._rate)
+        period = TURN / abs(self._rate)
         length = period if self._collects else min(self._interval, period)
         if length and len(self._spans):
             first, last = np.sort(self._spans, axis=0).T
@@ -123,7 +124,7 @@ class Antenna:
         last, self._end = self._end, end
         if self._rate == 0.0:
             return Sweep(start, end)
-        period = TWO_PI / abs(self._rate)
+        period = TURN / abs(self._rate)
         contiguous = (
             bool(abs(start - last) < _LATE * period)
             if self._full_turns

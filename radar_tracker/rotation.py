@@ -7,9 +7,8 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Floats
-from tracking_core.linalg import wrap_angle
+from tracking_core.linalg import TURN, wrap_angle
 
-TWO_PI = 2.0 * np.pi
 PERIODS = (0.4, 60.0)  # of antennas [s]
 IN_STEP = 0.97  # mean resultant length of azimuth minus antenna; 1: every plot on the beam
 _NEARLY = 0.6  # the same of a candidate, which may be off by a part of the step between them
@@ -35,11 +34,11 @@ def find_rate(time: Floats, azimuth: Floats, period: float, interval: float) -> 
 
     """
     if period:
-        candidates = TWO_PI / period * np.array([1.0, -1.0])
+        candidates = TURN / period * np.array([1.0, -1.0])
         fit, least = in_step(time, azimuth, candidates), IN_STEP
     else:
-        step = TWO_PI / np.ptp(time) / _STEPS
-        rates = np.arange(TWO_PI / PERIODS[1], TWO_PI / PERIODS[0], step)
+        step = TURN / np.ptp(time) / _STEPS
+        rates = np.arange(TURN / PERIODS[1], TURN / PERIODS[0], step)
         candidates = np.concatenate([-rates[::-1], rates])
         fit, least = _plausible(candidates, in_step(time, azimuth, candidates), interval), _NEARLY
     best = int(np.argmax(fit))
@@ -73,7 +72,7 @@ def _plausible(rates: Floats, fit: Floats, interval: float) -> Floats:
     Two contacts at rest fit many: turns may lie between them, either way round. If messages are
     full turns, the rate of the messages is tried first.
     """
-    turns = np.abs(rates) * interval / TWO_PI
+    turns = np.abs(rates) * interval / TURN
     usual = np.where(np.abs(turns - 1.0) < _USUAL, fit, 0.0)
     if usual.max() > fit.max() - _RIVAL:
         fit = usual

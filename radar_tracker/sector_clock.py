@@ -17,10 +17,10 @@ import numpy as np
 from msg_adapters.bad_message import BadMessage
 from radar_tracker.antenna import ONE_DIRECTION
 from radar_tracker.config import ScanConfig
-from radar_tracker.rotation import PERIODS, TWO_PI
+from radar_tracker.rotation import PERIODS
 from radar_tracker.sweep import Beam
 from tracking_core.batches import Floats, Plots
-from tracking_core.linalg import wrap_angle
+from tracking_core.linalg import TURN, wrap_angle
 
 SECTORS = np.arange(3, 97)  # of a turn; of two nobody can tell which way the antenna turns
 _FEWEST, _SAMPLES = 12, 1000  # sectors with plots from which a turn is learnt
@@ -138,7 +138,7 @@ class SectorClock:
             self._steps = np.append(self._steps, stamp - self._last)[-_STEPS:]
         if self._turn:
             turned = self._turn * round((stamp - self._last) / self._step)
-            self._middle = math.remainder(self._middle + turned, TWO_PI)
+            self._middle = math.remainder(self._middle + turned, TURN)
         self._last = stamp
 
     def _place(self, azimuth: Floats) -> Floats:
@@ -185,7 +185,7 @@ class SectorClock:
         sectors = sectors[(sectors * step > PERIODS[0]) & (sectors * step < PERIODS[1])]
         if not len(sectors):
             return 0.0
-        turns = np.stack([TWO_PI / sectors, -TWO_PI / sectors])
+        turns = np.stack([TURN / sectors, -TURN / sectors])
         beam = self._azimuth - turns[..., None] * count
         fit = np.abs(np.exp(1j * beam).mean(axis=-1)) / np.sinc(1.0 / sectors)
         way, best = np.unravel_index(np.argmax(fit), fit.shape)

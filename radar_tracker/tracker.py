@@ -15,12 +15,12 @@ from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import azimuth_of, farthest
 from radar_tracker.mounting import coverage_of, PlatformDoubt
-from radar_tracker.rotation import TWO_PI
 from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
 from radar_tracker.sweep import Beam
 from radar_tracker.turns import Turns
 from tracking_core.batches import Coverage, Floats, Plots, Tracks
+from tracking_core.linalg import TURN
 from tracking_core.platform import Platform, pose_at
 from tracking_core.space import Space
 from tracking_core.state import State
@@ -70,7 +70,7 @@ class RadarTracker:
     def turn_time(self) -> float:
         """Time of one turn of the antenna [s], 0 if it is not known to turn."""
         rate = abs(self.antenna.rotation_rate)
-        return TWO_PI / rate if rate else 0.0
+        return TURN / rate if rate else 0.0
 
     def save(self) -> dict[str, Any]:
         """Return what `restore` takes to go back to this moment: references, no copies of data."""

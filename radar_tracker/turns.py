@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from radar_tracker.gaps import is_missing, STAMPS, usual_step
-from radar_tracker.rotation import TWO_PI
 from tracking_core.batches import Plots
+from tracking_core.linalg import TURN
 from tracking_core.rows import concatenate
 
 
@@ -37,7 +37,7 @@ class Turns:
 
         Where sectors are missing before this one, those so far are all that comes of their turn.
         """
-        period = self._period or (TWO_PI / abs(rotation_rate) if rotation_rate else 0.0)
+        period = self._period or (TURN / abs(rotation_rate) if rotation_rate else 0.0)
         self._stamps = np.append(self._stamps, sector.stamp)[-STAMPS:]
         ahead = float(np.diff(self._stamps[-2:]).sum())  # when this sector will be over
         if is_missing(self._stamps, period):

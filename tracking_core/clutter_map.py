@@ -16,9 +16,9 @@ import math
 import numpy as np
 
 from tracking_core.batches import Bools, Coverage, Floats, Ints
+from tracking_core.linalg import TURN
 from tracking_core.space import Point, Space
 
-TURN = 2.0 * np.pi
 SPOKES, RINGS = 64, 128
 SPOKE_EDGES = np.linspace(0.0, TURN, SPOKES + 1)  # [rad]
 RING_EDGES = np.concatenate([[0.0], 5.0 * 2.0 ** (np.arange(1.0, RINGS) / 7.0), [np.inf]])  # [m]

@@ -15,7 +15,8 @@ from functools import cached_property
 import numpy as np
 
 from tracking_core.batches import Floats, Ints, Scan
-from tracking_core.clutter_map import cells, ClutterMap, RING_EDGES, rings_of, SPOKES, TURN
+from tracking_core.clutter_map import cells, ClutterMap, RING_EDGES, rings_of, SPOKES
+from tracking_core.linalg import TURN
 from tracking_core.sensing import Sensor
 from tracking_core.space import Point, Space
 

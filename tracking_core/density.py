@@ -11,8 +11,8 @@ import numpy as np
 
 from tracking_core.batches import Floats, Scan
 from tracking_core.clutter import Clutter, estimate_density
-from tracking_core.clutter_map import TURN
 from tracking_core.clutter_pattern import Pattern
+from tracking_core.linalg import TURN
 from tracking_core.sensing import Sensor
 
 _Relief = TypeVar('_Relief', float, Floats)

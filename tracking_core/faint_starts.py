@@ -10,6 +10,7 @@ import numpy as np
 
 from tracking_core.batches import Coverage, Floats, Ints
 from tracking_core.density import Density
+from tracking_core.linalg import TURN
 
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # part of a whole that meets no place twice
 
@@ -24,7 +25,7 @@ def share_of_faint(faint_starts: int, coverage: Coverage, density: Density) -> i
     """
     if coverage.rotation_rate == 0.0:
         return faint_starts
-    turn_time = 2.0 ** round(-math.log2(abs(coverage.rotation_rate) / (2.0 * np.pi)))  # roughly
+    turn_time = 2.0 ** round(-math.log2(abs(coverage.rotation_rate) / TURN))  # roughly
     turn = math.floor(coverage.start_time / turn_time)
     begin, end = (
         math.copysign(1.0, coverage.sweep) * density.turns_of_clutter(azimuth)

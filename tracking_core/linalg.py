@@ -11,10 +11,12 @@ import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints
 
+TURN = 2.0 * np.pi  # a whole one [rad]
+
 
 def wrap_angle(angle: Floats) -> Floats:
     """Return the angle in [-pi, pi) [rad]."""
-    return np.asarray((angle + np.pi) % (2.0 * np.pi) - np.pi)
+    return np.asarray((angle + np.pi) % TURN - np.pi)
 
 
 def nearest_turn(angle: Floats, reference: Floats) -> Floats:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracking_core.batches import Bools, Coverage, Floats
-from tracking_core.linalg import wrap_angle
+from tracking_core.linalg import TURN, wrap_angle
 
 LARGEST_MARGIN = 1.0 / 8.0  # of a turn: a gate about the sensor itself is not waited for longer
 LONGEST_WAIT = 1.0 / 4.0  # of a turn: then a track no longer waits for open neighbours
@@ -47,7 +47,7 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
     if rate == 0.0:
         middle = 0.5 * (coverage.start_time + coverage.end_time)
         return Looks(np.full(len(time), middle), np.ones(len(time), bool))
-    period = 2.0 * np.pi / abs(rate)
+    period = TURN / abs(rate)
     (x, y), (vx, vy) = (position - coverage.sensor_position[:2]).T, velocity.T
 
     def azimuth(lag: Floats) -> Floats:
@@ -89,7 +89,7 @@ def _travel(azimuth: Floats, coverage: Coverage) -> Floats:
     """Return the angle in [0, 2 pi) that the antenna has turned since it pointed there."""
     end = coverage.start_azimuth + coverage.sweep
     ahead = end - azimuth if coverage.sweep > 0.0 else azimuth - end
-    return np.asarray(ahead % (2.0 * np.pi))
+    return np.asarray(ahead % TURN)
 
 
 def longest_since(time: Floats, latest: float, coverage: Coverage) -> Floats:
@@ -113,7 +113,7 @@ def longest_since(time: Floats, latest: float, coverage: Coverage) -> Floats:
     longest = np.maximum(latest - time, 0.0)
     if coverage.rotation_rate == 0.0:
         return np.asarray(longest)
-    period = 2.0 * np.pi / abs(coverage.rotation_rate)
+    period = TURN / abs(coverage.rotation_rate)
     turns = np.floor(longest / period + LARGEST_MARGIN)
     return np.minimum(longest, (turns + LARGEST_MARGIN) * period)
 
@@ -137,7 +137,7 @@ def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
         return np.zeros(len(position))
     x, y = coverage.sensor_position[:2]
     angle = np.arctan2(half_size, np.hypot(position[:, 0] - x, position[:, 1] - y))
-    return np.asarray(np.minimum(angle, LARGEST_MARGIN * 2.0 * np.pi) / rate)
+    return np.asarray(np.minimum(angle, LARGEST_MARGIN * TURN) / rate)
 
 
 def inside_coverage(position: Floats, coverage: Coverage) -> Bools:
@@ -147,7 +147,7 @@ def inside_coverage(position: Floats, coverage: Coverage) -> Bools:
     offset = position - np.array(coverage.sensor_position[: position.shape[1]])
     distance = np.sqrt(np.einsum('td,td->t', offset, offset))
     within = (distance >= coverage.range_min) & (distance <= coverage.range_max)
-    if coverage.sector_width >= 2.0 * np.pi:
+    if coverage.sector_width >= TURN:
         return np.asarray(within)
     angle = np.arctan2(offset[:, 1], offset[:, 0])
     return np.asarray(within & _in_sector(angle, coverage))

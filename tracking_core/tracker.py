@@ -21,12 +21,12 @@ from tracking_core.composition import Setup
 from tracking_core.density import Density, expected_density
 from tracking_core.heap import keep_freed_memory
 from tracking_core.initiation import one_point, Starts
+from tracking_core.linalg import TURN
 from tracking_core.merging import end_doubles
 from tracking_core.rows import concatenate, take
 from tracking_core.state import State, StepReport
 from tracking_core.update import Look, look
 
-FULL_TURN = 2.0 * np.pi
 FEWEST_TURNS = 3.0  # of the antenna; shorter is no pause
 
 
@@ -156,7 +156,7 @@ class Tracker:
         tracks, seeds = self.state.tracks, self.state.seeds
         pause, rate = self.setup.longest_pause or np.inf, abs(scan.coverage.rotation_rate)
         if rate:
-            pause = max(pause, FEWEST_TURNS * FULL_TURN / rate)
+            pause = max(pause, FEWEST_TURNS * TURN / rate)
         earliest = scan.coverage.start_time - pause
         silent, old = tracks.time < earliest, seeds.time < earliest
         if not (silent.any() or old.any()):
@@ -191,6 +191,6 @@ def _interval(scan: Scan, state: State) -> float:
     """Return the time between two looks at the same place [s]."""
     rate = abs(scan.coverage.rotation_rate)
     if rate:
-        return FULL_TURN / rate
+        return TURN / rate
     since = scan.coverage.end_time - state.time
     return since if 0.0 < since < np.inf else 1.0

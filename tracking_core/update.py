@@ -15,7 +15,7 @@ from tracking_core.composition import Setup
 from tracking_core.density import Density
 from tracking_core.detection import detection_probability
 from tracking_core.lifecycle import count_looks, has_left
-from tracking_core.linalg import is_positive_definite, sum_by_track
+from tracking_core.linalg import is_positive_definite, sum_by_track, TURN
 from tracking_core.looks import LONGEST_WAIT
 from tracking_core.pairing import Gated, pair, thresholds
 from tracking_core.prediction import longest_lag, next_passes, predict_tracks, Predicted
@@ -136,7 +136,7 @@ def _due(near: Predicted, gated: Gated, scan: Scan) -> Bools:
     label, _ = clusters(gated.pairs.track, gated.pairs.plot, len(near.time), len(scan))
     waits = np.zeros(len(near.time), bool)
     waits[label[~left_behind]] = True
-    patience = LONGEST_WAIT * 2.0 * np.pi / abs(scan.coverage.rotation_rate)
+    patience = LONGEST_WAIT * TURN / abs(scan.coverage.rotation_rate)
     overdue = near.time + near.margin + patience <= scan.coverage.end_time
     return np.asarray(left_behind & (~waits[label] | overdue))
 
