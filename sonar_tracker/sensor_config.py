@@ -12,7 +12,7 @@ from msg_adapters.azimuths import angle_unit, azimuth_convention, azimuth_refere
 from tracking_core.config import parameter, validate
 
 FARTHEST = 1e7  # m, of a sensor from the origin of its platform or of the tracking frame
-TURN = 6.3  # rad, a little more than a full one
+MOST_YAW = 6.3  # rad, a little more than a full turn
 _ALL_AROUND = 6.28  # rad, as a full turn is written
 
 
@@ -27,7 +27,7 @@ class MountConfig:
         0.0, unit='m', doc='left of the platform origin', low=-FARTHEST, high=FARTHEST
     )
     yaw: float = parameter(
-        0.0, unit='rad', doc='anticlockwise from the platform x axis', low=-TURN, high=TURN
+        0.0, unit='rad', doc='anticlockwise from the platform x axis', low=-MOST_YAW, high=MOST_YAW
     )
 
     def __post_init__(self) -> None:
