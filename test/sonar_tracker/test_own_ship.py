@@ -3,7 +3,9 @@
 """A sonar on a ship that turns, and that does not know its heading well."""
 
 import numpy as np
+import pytest
 
+from benchmarks.sonar_data import preset
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.sensor import Sonar
 from sonar_tracker.sensor_config import SensorConfig
@@ -140,16 +142,18 @@ def test_contact_to_port_keeps_its_id_where_marks_are_counted_to_starboard():
     assert before & set(tracks.id.tolist()) == on_contact
 
 
-def test_marks_that_tell_half_their_sd_start_no_second_tracks():
-    """Six contacts in 10 minutes, no parameters: what falls outside a gate has no track yet."""
-    rng, sonar = np.random.default_rng(4), SonarTracker(SonarTrackerConfig())
-    true, ids = np.radians([-150.0, -90.0, -30.0, 30.0, 90.0, 150.0]), set()
+@pytest.mark.parametrize('values', [{}, preset('passive_linear_array')])
+def test_marks_that_tell_half_their_sd_start_no_second_tracks(values):
+    """Six contacts in 10 minutes: what falls outside a gate has no track yet."""
+    rng = np.random.default_rng(4)
+    sonar = SonarTracker(with_values(SonarTrackerConfig(), values))
+    true, ids = np.radians([-150.0, -130.0, -105.0, -80.0, -55.0, -30.0]), set()
+    sd = sonar.config.sensor.bearing_sd
     for cycle in range(300):
         heard = true[rng.random(6) < 0.9]
-        sd = np.full(len(heard), 0.5 * 0.01)
         marks = Bearings.of(
-            np.full(len(heard), 2.0 * cycle), heard + 0.01 * rng.standard_normal(len(heard)),
-            bearing_sd=sd, stamp=2.0 * cycle,
+            np.full(len(heard), 2.0 * cycle), heard + sd * rng.standard_normal(len(heard)),
+            bearing_sd=np.full(len(heard), 0.5 * sd), stamp=2.0 * cycle,
         )  # fmt: skip
         tracks = sonar.track(marks)
         ids |= set(tracks.id[tracks.confirmed].tolist())
