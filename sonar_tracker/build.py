@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.marked import Marked
 from sonar_tracker.range_prior import RANGE_PRIORS
@@ -21,6 +23,8 @@ from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.mode_chain import ModeChain
 from tracking_core.motion import RandomWalk
 
+_LOOKS_ASIDE = 15  # in a blind sector: own ship turns, and it passes
+
 
 def build_setup(config: SonarTrackerConfig, sonar: Sonar) -> Setup:
     """Return sensor, filters and rules for these parameters."""
@@ -30,7 +34,8 @@ def build_setup(config: SonarTrackerConfig, sonar: Sonar) -> Setup:
         memory=start.memory, faint_starts=start.faint_starts,
     )  # fmt: skip
     planes = (Plane(_with_marks(build_estimator(config), config), (0,)),)
-    return assemble(config, sonar, planes, initiation, config.sensor.bearing_resolution)
+    setup = assemble(config, sonar, planes, initiation, config.sensor.bearing_resolution)
+    return replace(setup, looks_outside=_LOOKS_ASIDE)
 
 
 def build_estimator(config: SonarTrackerConfig) -> Estimator:

@@ -16,7 +16,6 @@ from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MO
 from tracking_core.rows import change
 
 _HISTORY = (1 << 60) - 1  # looks remembered as bits
-_OUTSIDE_LOOKS = 5  # looks outside the coverage after which a track has left
 
 
 class Lifecycle(Protocol):
@@ -183,6 +182,6 @@ def count_looks(tracks: Tracks, hit: Bools) -> Tracks:
     )
 
 
-def has_left(tracks: Tracks, inside: Bools) -> Bools:
-    """Return which tracks (T,) are outside the coverage and were not seen for some looks."""
-    return np.asarray(~inside & (tracks.misses >= _OUTSIDE_LOOKS))
+def has_left(tracks: Tracks, inside: Bools, looks: int) -> Bools:
+    """Return which tracks (T,) are outside the coverage and were not seen for so many looks."""
+    return np.asarray(~inside & (tracks.misses >= looks))

@@ -165,7 +165,7 @@ def _update(
         nis=np.where(found > 0.5, weighted / np.maximum(found, 0.5), np.nan),
     )
     confirmed, ended = setup.lifecycle.judge(tracks, share.existence_probability, leniency)
-    ended |= has_left(tracks, predicted.detection > 0.0)
+    ended |= has_left(tracks, predicted.detection > 0.0, setup.looks_outside)
     sound = [is_positive_definite(mixture.covariance).all(axis=1) for mixture in planes]
     return change(tracks, confirmed=confirmed), ended, ~np.logical_and.reduce(sound)
 

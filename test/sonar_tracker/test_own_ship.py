@@ -158,3 +158,22 @@ def test_marks_that_tell_half_their_sd_start_no_second_tracks(values):
         tracks = sonar.track(marks)
         ids |= set(tracks.id[tracks.confirmed].tolist())
     assert len(ids) <= 8
+
+
+def test_contact_keeps_its_id_through_the_blind_sector() -> None:
+    """Deaf for 60 degrees astern, own ship turns away from a contact for ten looks and back."""
+    values = {**preset('direction_finder'), 'sensor.sector_width': np.radians(300.0)}
+    sonar, rng = SonarTracker(with_values(SonarTrackerConfig(), values)), np.random.default_rng(2)
+    ids = []
+    time = 10.0 * np.arange(60)
+    yaw = np.where((time >= 300.0) & (time < 400.0), np.pi, 0.0)
+    nothing = np.zeros((len(time), 3))
+    turn = np.stack([0.0 * yaw, 0.0 * yaw, np.sin(0.5 * yaw), np.cos(0.5 * yaw)], axis=1)
+    ship = Platform(time, nothing, turn, nothing, np.zeros((60, 3, 3)), np.zeros(60))
+    for now, heading in zip(time, yaw, strict=True):
+        heard = np.zeros(0) if heading else rng.normal(0.1, 0.0175, 1)
+        marks = Bearings.of(np.full(len(heard), now), heard, stamp=now)
+        tracks = sonar.track(marks, ship)
+        ids.append(tracks.id[tracks.confirmed].tolist())
+    assert len(ids[29]) == 1
+    assert ids[-1] == ids[29]

@@ -150,10 +150,10 @@ def test_count_looks_remembers_sixty_looks() -> None:
 
 
 def test_has_left_waits_for_some_misses() -> None:
-    """A track outside the coverage goes once it was not seen for five looks."""
+    """A track outside the coverage goes once it was not seen for so many looks."""
     tracks = replace(make_tracks(4), misses=np.array([4, 5, 5, 0]))
     outside = np.array([True, True, False, True])
-    assert_array_equal(has_left(tracks, ~outside), [False, True, False, False])
+    assert_array_equal(has_left(tracks, ~outside, 5), [False, True, False, False])
 
 
 @pytest.mark.parametrize('name', LIFECYCLES)
