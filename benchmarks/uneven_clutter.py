@@ -3,12 +3,13 @@
 """
 What becomes of ships, and how many tracks follow nobody, where false plots are not everywhere?
 
-Run ``python -m benchmarks.uneven_clutter [--runs N]``. A marine radar, 24 turns a minute, with
-``config/marine_radar.yaml`` and a range of 22 km, ten minutes among ten ships; so many false plots
-a turn are rain in a square of 4 km, waves within 4 km, a coast, or even in range and azimuth, and
-five more are anywhere. First as nothing is set: the density is learnt where it is; then with the
-true mean told as `clutter_density`, which is what a tracker without a map goes by. Mean and
-standard error over the runs; false are confirmed tracks of nobody at a time.
+Run ``python -m benchmarks.uneven_clutter [--runs N] [--set NAME=VALUE ...]``. A marine radar, 24
+turns a minute, with ``config/marine_radar.yaml`` and a range of 22 km, ten minutes among ten
+ships; so many false plots a turn are rain in a square of 4 km, waves within 4 km, a coast, or even
+in range and azimuth, and five more are anywhere. First as nothing else is set: the density is
+learnt where it is; then with the true mean told as `clutter_density`, which is what a tracker
+without a map goes by. Mean and standard error over the runs; false are confirmed tracks of nobody
+at a time.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from time import process_time
+from typing import Any
 
 import numpy as np
 from tqdm import tqdm
@@ -27,7 +29,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Floats, Plots
 from tracking_core.config import with_values
-from tracking_tools.parameter_file import read_parameter_file
+from tracking_tools.parameter_file import parse_value, read_parameter_file
 
 PRESET = Path(__file__).parent.parent / 'config' / 'marine_radar.yaml'
 TURN_TIME, FARTHEST, DETECTION = 2.5, 22e3, 0.85  # [s], [m]
@@ -61,11 +63,11 @@ CASES: tuple[tuple[str, Source, tuple[float, ...]], ...] = (
 )
 
 
-def watch(source: Source, false_plots: float, seed: int, is_told: bool) -> Outcome:
-    """Return what the tracker makes of so many false plots of this kind a turn."""
+def watch(source: Source, false_plots: float, seed: int, is_told: bool, **own: Any) -> Outcome:
+    """Return what it makes of so many false plots of this kind a turn; `own` are parameters."""
     rng, values = np.random.default_rng(seed), read_parameter_file(PRESET, '/radar_tracker')
     told = (false_plots + ANYWHERE) / (2.0 * np.pi * (FARTHEST - 50.0)) if is_told else 0.0
-    values.update({'scan.assembly': 'snapshot', 'sensor.range_max': FARTHEST})
+    values.update({'scan.assembly': 'snapshot', 'sensor.range_max': FARTHEST, **own})
     tracker = RadarTracker(with_values(RadarTrackerConfig(), {**values, 'clutter_density': told}))
     start = _cartesian(rng.uniform([1e3, -np.pi], [15e3, np.pi], (SHIPS, 2)))
     velocity = _cartesian(rng.uniform([2.0, -np.pi], [12.0, np.pi], (SHIPS, 2)))
@@ -100,14 +102,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description='Ships in rain, waves and before a coast.')
     parser.add_argument('--runs', type=int, default=10, help='of ten minutes each')
+    parser.add_argument('--set', nargs='*', default=[], help='parameters as name=value')
     given = parser.parse_args(arguments)
+    own = {k: parse_value(v) for k, v in (item.split('=', 1) for item in given.set)}
     print(HEAD)
     for is_told in (False, True):
         for name, source, amounts in CASES:
             title = f'{name}, mean told' if is_told else name
             for amount in amounts:
                 seeds = tqdm(range(given.runs), desc=f'{title}, {amount:.0f}', leave=False)
-                outcomes = [watch(source, amount, seed, is_told) for seed in seeds]
+                outcomes = [watch(source, amount, seed, is_told, **own) for seed in seeds]
                 print(line(title, amount, outcomes), flush=True)
 
 
