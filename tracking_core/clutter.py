@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tracking_core.batches import Bools, Floats, Scan
+from tracking_core.batches import Bools, Coverage, Floats, Ints, Scan
 from tracking_core.clutter_map import (
     cells,
     ClutterMap,
@@ -52,6 +52,16 @@ class Clutter:
         cell = cells(sensor.space, coverage.sensor_position, scan.position[counted])
         clutter_map = self.map.add(cell, plots, looks_now, coverage.part_of_look)
         return Clutter(clutter_map, density, looks)
+
+    def without(self, places: Floats, plots: Ints, coverage: Coverage, sensor: Sensor) -> Clutter:
+        """
+        Return what is known now that contacts at places (K, d) are.
+
+        So many plots (K,) of each were taken for false ones before. While they stood in the map,
+        contacts near each other were clutter to each other, and some were never found.
+        """
+        cell = cells(sensor.space, coverage.sensor_position, places)
+        return Clutter(self.map.without(cell, plots), self.density, self.looks)
 
     def times(self, factor: float) -> Clutter:
         """Return the same plots in a larger space, or a smaller one."""

@@ -16,6 +16,7 @@ import math
 import numpy as np
 
 from tracking_core.batches import Bools, Coverage, Floats, Ints
+from tracking_core.chances import TINY
 from tracking_core.linalg import TURN
 from tracking_core.space import Point, Space
 
@@ -23,7 +24,8 @@ SPOKES, RINGS = 64, 128
 SPOKE_EDGES = np.linspace(0.0, TURN, SPOKES + 1)  # [rad]
 RING_EDGES = np.concatenate([[0.0], 5.0 * 2.0 ** (np.arange(1.0, RINGS) / 7.0), [np.inf]])  # [m]
 MEMORY = 10.0  # looks over which plots are counted
-_FEWEST = 10.0  # plots; fewer make no pattern
+_FEWEST = 20.0  # plots; fewer make no pattern
+_BESIDE = np.arange(-1, 2)  # of a cell
 _BLOCK = 8  # cells each way in which a jump is looked for
 JUMP, JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
 
@@ -69,6 +71,18 @@ class ClutterMap:
             usual = self.count * (now / np.maximum(self.looks, 1e-9))
             kept = np.where(_have_jumped(fresh, usual), 0.0, kept)
         return ClutterMap(kept * self.count + fresh, kept * self.looks + now)
+
+    def without(self, cell: Ints, plots: Ints) -> ClutterMap:
+        """Return the map less so many plots (K,) in or beside each cell (K,)."""
+        A, R = self.count.shape
+        spoke, ring = np.divmod(cell[:, None, None], R)
+        spoke, ring = (spoke + _BESIDE[:, None]) % A, (ring + _BESIDE).clip(0, R - 1)
+        place = (spoke * R + ring).reshape(len(cell), _BESIDE.size**2)
+        count = self.count.reshape(-1)
+        here = count[place]
+        taken = here * (plots / np.maximum(here.sum(axis=1), TINY))[:, None]
+        left = count - np.bincount(place.reshape(-1), taken.reshape(-1), A * R)
+        return ClutterMap(np.maximum(left, 0.0).reshape(A, R), self.looks)
 
     def turns_of_clutter(self, azimuth: float) -> float:
         """Return the clutter from azimuth 0 to this one [rad], 1: that of a whole turn."""

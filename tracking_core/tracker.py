@@ -25,6 +25,7 @@ from tracking_core.linalg import TURN
 from tracking_core.merging import end_doubles
 from tracking_core.rows import concatenate, take
 from tracking_core.state import State, StepReport
+from tracking_core.unresolved.sets import places_of
 from tracking_core.update import Look, look
 
 FEWEST_TURNS = 3.0  # of the antenna; shorter is no pause
@@ -94,6 +95,7 @@ class Tracker:
         if not self.setup.clutter_density:
             unexplained = ((1.0 - seen.claimed).clip(0.0) - born.used).clip(0.0)
             clutter = clutter.learn(scan, unexplained, ~seen.waiting, self.setup.sensor)
+            clutter = self._with_hindsight(clutter, kept, scan.coverage)
         report = StepReport(
             plots=len(scan),
             held=int(seen.waiting.sum()),
@@ -177,6 +179,16 @@ class Tracker:
             seen.tracks, seen.passed, merge, self.setup.sensor.space, is_unresolved
         )
         return take(living, ~doubled), living.id[doubled]
+
+    def _with_hindsight(self, clutter: Clutter, tracks: Tracks, coverage: Coverage) -> Clutter:
+        """Return what is known of clutter, less the plots of contacts that are sure only now."""
+        known = self.state.tracks.id[self.state.tracks.confirmed]
+        new = tracks.confirmed & ~np.isin(tracks.id, known)
+        if not new.any():
+            return clutter
+        found = take(tracks, new)
+        places = places_of(self.setup.planes, found.planes, self.setup.sensor.dimensions).mean
+        return clutter.without(places, found.hits, coverage, self.setup.sensor)
 
     def _density(self, state: State, scan: Scan, interval: float) -> Density:
         """Return the sources of other plots, per unit of plot space and look."""

@@ -200,7 +200,21 @@ def test_few_plots_make_no_pattern() -> None:
     assert ClutterMap.blank(ANGLES).is_flat
     plots = places(np.full(8, 1e3), np.linspace(0.0, 0.1, 8))
     assert learnt([plots]).is_flat
-    assert not learnt([np.repeat(plots, 2, axis=0)]).is_flat
+    assert not learnt([np.repeat(plots, 3, axis=0)]).is_flat
+
+
+def test_plots_of_contacts_are_taken_back() -> None:
+    """In and beside their cells, by how many are there; never more than there are."""
+    count = np.zeros((SPOKES, RINGS))
+    count[0, 40], count[63, 41], count[2, 40], count[30, 0] = 6.0, 3.0, 5.0, 1.0
+    known = ClutterMap(count, np.ones((SPOKES, RINGS)))
+    left = known.without(np.array([0 * RINGS + 40, 30 * RINGS]), np.array([3, 4]))
+    assert_allclose(left.count[[0, 63, 2, 30], [40, 41, 40, 0]], [4.0, 2.0, 5.0, 0.0])
+    assert left.count.sum() == pytest.approx(11.0)
+    angles = ClutterMap(np.full((SPOKES, 1), 2.0), np.ones((SPOKES, 1)))
+    left = angles.without(np.array([63]), np.array([3]))
+    assert_allclose(left.count[[61, 62, 63, 0, 1], 0], [2.0, 1.0, 1.0, 1.0, 2.0])
+    assert_allclose(known.without(np.zeros(0, int), np.zeros(0, int)).count, count)
 
 
 @pytest.mark.parametrize('direction', [1.0, -1.0])
