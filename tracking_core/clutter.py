@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from tracking_core.batches import Bools, Coverage, Floats, Ints, Scan
 from tracking_core.clutter_map import (
     cells,
@@ -18,6 +20,7 @@ from tracking_core.clutter_map import (
 from tracking_core.sensing import Sensor
 
 _LEAST_PLOTS = 0.5  # false plots of a look that are assumed at least: none seen is not none ever
+_UNCLAIMED = 0.5  # of a new contact's plots: the chance that it exists rose from 0 to 1
 
 
 @dataclass(frozen=True)
@@ -57,11 +60,12 @@ class Clutter:
         """
         Return what is known now that contacts at places (K, d) are.
 
-        So many plots (K,) of each were taken for false ones before. While they stood in the map,
-        contacts near each other were clutter to each other, and some were never found.
+        Of so many plots (K,) that each has had, some were taken for false ones. While they stand
+        in the map, contacts near each other are clutter to each other, and some are never found.
         """
         cell = cells(sensor.space, coverage.sensor_position, places)
-        return Clutter(self.map.without(cell, plots), self.density, self.looks)
+        known = self.map.without(cell, np.asarray(_UNCLAIMED * plots))
+        return Clutter(known, self.density, self.looks)
 
     def times(self, factor: float) -> Clutter:
         """Return the same plots in a larger space, or a smaller one."""

@@ -24,7 +24,8 @@ SPOKES, RINGS = 64, 128
 SPOKE_EDGES = np.linspace(0.0, TURN, SPOKES + 1)  # [rad]
 RING_EDGES = np.concatenate([[0.0], 5.0 * 2.0 ** (np.arange(1.0, RINGS) / 7.0), [np.inf]])  # [m]
 MEMORY = 10.0  # looks over which plots are counted
-_FEWEST = 20.0  # plots; fewer make no pattern
+_FEWEST = 10.0  # plots; fewer make no pattern
+_FEWEST_AT_FIRST, _FIRST = 30.0, 4.0  # nor do these in so many looks: all contacts are new then
 _BESIDE = np.arange(-1, 2)  # of a cell
 _BLOCK = 8  # cells each way in which a jump is looked for
 JUMP, JUMP_PLOTS = 2.0, 10.0  # times the usual plus so many plots: a jump, not chance
@@ -46,7 +47,8 @@ class ClutterMap:
     @property
     def is_flat(self) -> bool:
         """Whether there are too few plots for a pattern."""
-        return bool(self.count.sum() < _FEWEST)
+        at_first = self.looks.max() < _FIRST
+        return bool(self.count.sum() < (_FEWEST_AT_FIRST if at_first else _FEWEST))
 
     def add(self, cell: Ints, plots: Floats, looks: Floats, share: float) -> ClutterMap:
         """
@@ -72,7 +74,7 @@ class ClutterMap:
             kept = np.where(_have_jumped(fresh, usual), 0.0, kept)
         return ClutterMap(kept * self.count + fresh, kept * self.looks + now)
 
-    def without(self, cell: Ints, plots: Ints) -> ClutterMap:
+    def without(self, cell: Ints, plots: Floats) -> ClutterMap:
         """Return the map less so many plots (K,) in or beside each cell (K,)."""
         A, R = self.count.shape
         spoke, ring = np.divmod(cell[:, None, None], R)

@@ -21,11 +21,11 @@ from tracking_core.composition import Setup
 from tracking_core.density import Density, expected_density
 from tracking_core.heap import keep_freed_memory
 from tracking_core.initiation import one_point, Starts
+from tracking_core.learning import learn_clutter
 from tracking_core.linalg import TURN
 from tracking_core.merging import end_doubles
 from tracking_core.rows import concatenate, take
 from tracking_core.state import State, StepReport
-from tracking_core.unresolved.sets import places_of
 from tracking_core.update import Look, look
 
 FEWEST_TURNS = 3.0  # of the antenna; shorter is no pause
@@ -91,11 +91,6 @@ class Tracker:
         room = max(self.setup.max_tracks - len(kept), 0)
         started = born.tracks
         fitting = started if len(started) <= room else take(started, slice(0, room))
-        clutter = state.clutter
-        if not self.setup.clutter_density:
-            unexplained = ((1.0 - seen.claimed).clip(0.0) - born.used).clip(0.0)
-            clutter = clutter.learn(scan, unexplained, ~seen.waiting, self.setup.sensor)
-            clutter = self._with_hindsight(clutter, kept, scan.coverage)
         report = StepReport(
             plots=len(scan),
             held=int(seen.waiting.sum()),
@@ -115,7 +110,7 @@ class Tracker:
             seeds=born.seeds,
             held=take(scan, seen.waiting) if seen.waiting.any() else None,
             next_id=state.next_id + len(fitting),
-            clutter=clutter,
+            clutter=learn_clutter(state, scan, seen, born.used, kept, self.setup),
             leniency=born.leniency,
             time=max(scan.coverage.end_time, state.time),
             report=report,
@@ -179,16 +174,6 @@ class Tracker:
             seen.tracks, seen.passed, merge, self.setup.sensor.space, is_unresolved
         )
         return take(living, ~doubled), living.id[doubled]
-
-    def _with_hindsight(self, clutter: Clutter, tracks: Tracks, coverage: Coverage) -> Clutter:
-        """Return what is known of clutter, less the plots of contacts that are sure only now."""
-        known = self.state.tracks.id[self.state.tracks.confirmed]
-        new = tracks.confirmed & ~np.isin(tracks.id, known)
-        if not new.any():
-            return clutter
-        found = take(tracks, new)
-        places = places_of(self.setup.planes, found.planes, self.setup.sensor.dimensions).mean
-        return clutter.without(places, found.hits, coverage, self.setup.sensor)
 
     def _density(self, state: State, scan: Scan, interval: float) -> Density:
         """Return the sources of other plots, per unit of plot space and look."""

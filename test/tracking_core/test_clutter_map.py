@@ -196,11 +196,15 @@ def test_rain_that_sets_in_is_believed_at_once() -> None:
 
 
 def test_few_plots_make_no_pattern() -> None:
-    """Eight plots in one place may be anything."""
+    """Eight plots in one place may be anything; in the first looks so may 24: all is new."""
     assert ClutterMap.blank(ANGLES).is_flat
     plots = places(np.full(8, 1e3), np.linspace(0.0, 0.1, 8))
     assert learnt([plots]).is_flat
-    assert not learnt([np.repeat(plots, 3, axis=0)]).is_flat
+    assert learnt([plots] * 3).is_flat
+    assert not learnt([np.repeat(plots, 5, axis=0)]).is_flat
+    later = ClutterMap.blank(POINTS).add(cells(POINTS, HERE, plots), np.ones(8), 5.0 * ONCE, 1.0)
+    assert later.is_flat
+    assert not later.add(cells(POINTS, HERE, plots), np.ones(8), ONCE, 1.0).is_flat
 
 
 def test_plots_of_contacts_are_taken_back() -> None:
