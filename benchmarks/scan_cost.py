@@ -136,7 +136,7 @@ def _judge(name: str, value: float, limit: float) -> str:
 def _ratios(
     plain: dict[int, Cost], denser: dict[float, Cost], exact: Cost, rough: Cost
 ) -> Iterator[str]:
-    """Yield the measures of DESIGN.md 6, each with its limit."""
+    """Yield the measures that have a limit, each with it."""
     rows = sorted(plain.values(), key=lambda c: c.tracks)
     tracks, total = [c.tracks for c in rows], [c.total for c in rows]
     for size, limit in LIMITS.items():

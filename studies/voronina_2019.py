@@ -46,8 +46,14 @@ TRACKERS = {
     'Kalman, unresolved marks': KALMAN,
     'modified polar, unresolved marks': OURS,
     'the same, and a mode for turns': TURNING,
-    'the same, limit 25 % too small': {**OURS, 'sensor.bearing_resolution': 0.75 * RESOLUTION},
-    'the same, limit 25 % too large': {**OURS, 'sensor.bearing_resolution': 1.25 * RESOLUTION},
+    'modified polar, unresolved marks, limit 25 % too small': {
+        **OURS,
+        'sensor.bearing_resolution': 0.75 * RESOLUTION,
+    },
+    'modified polar, unresolved marks, limit 25 % too large': {
+        **OURS,
+        'sensor.bearing_resolution': 1.25 * RESOLUTION,
+    },
 }
 SCENES = ('nominal', 'fluct', *TURNS)
 SURE = 'modified polar, unresolved marks'

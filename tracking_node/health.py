@@ -91,6 +91,7 @@ class Health:
             'tracks capacity': capacity,
             'tracks refused (capacity)': report.refused,
             'tracks broken': report.broken,
+            'tracks approximate': report.approximate,
             f'{topic} used': report.plots,
             f'{topic} held': report.held,
             'clutter density': report.clutter_density,

@@ -8,6 +8,7 @@ Run ``python -m tracking_tools.parameter_page > docs/parameters.md``.
 
 from __future__ import annotations
 
+from decimal import Context, ROUND_DOWN
 from typing import Any
 
 from radar_tracker.config import RadarTrackerConfig
@@ -50,17 +51,24 @@ def _value(value: Any) -> str:
         return '[' + ', '.join(_value(item) for item in value) + ']'
     if isinstance(value, bool):
         return str(value).lower()
-    return f'{value:.6g}' if isinstance(value, float) else (str(value) or "''")
+    return _number(value) if isinstance(value, float) else (str(value) or "''")
+
+
+def _number(value: float) -> str:
+    """Return six digits, rounded towards zero: a limit may be typed as it is printed."""
+    text = f'{value:.6g}'
+    if abs(float(text)) <= abs(value):
+        return text
+    return str(Context(prec=6, rounding=ROUND_DOWN).create_decimal_from_float(value))
 
 
 def _range(p: Parameter) -> str:
     if p.choices:
         return ', '.join(p.choices)
-    if p.low is None and p.high is None:
-        return ''
-    if p.high is None:
-        return f'from {p.low:g}'
-    return f'up to {p.high:g}' if p.low is None else f'{p.low:g} to {p.high:g}'
+    low, high = ('' if limit is None else _number(limit) for limit in (p.low, p.high))
+    if low and high:
+        return f'{low} to {high}'
+    return f'from {low}' if low else high and f'up to {high}'
 
 
 if __name__ == '__main__':

@@ -22,3 +22,9 @@ def test_page_has_every_parameter_with_a_meaning() -> None:
         assert len(names) == len(set(names))
         assert all(p.doc for config in configs for p in parameters(config))
         assert all(f'`{name}`' in page() for name in names)
+
+
+def test_limits_may_be_typed_as_they_are_printed() -> None:
+    """Rounded up, a whole turn would be refused."""
+    assert '0.001 to 6.28318 |' in page()
+    assert '6.28319' not in page()
