@@ -129,11 +129,6 @@ class Coverage:
         duration = self.end_time - self.start_time
         return self.sweep / duration if self.sweep and duration > 0.0 else 0.0
 
-    @property
-    def part_of_look(self) -> float:
-        """Share of a look everywhere, in (0, 1]: less for a sector of an antenna's turn."""
-        return min(abs(self.sweep) / (2.0 * np.pi), 1.0) if self.sweep else 1.0
-
 
 @dataclass(frozen=True)
 class Scan:

@@ -16,6 +16,7 @@ from tracking_core.clutter_map import (
     JUMP_PLOTS,
     looks_at_spokes,
     MEMORY,
+    part_of_look,
 )  # fmt: skip
 from tracking_core.sensing import Sensor
 
@@ -48,24 +49,31 @@ class Clutter:
 
         """
         coverage, plots = scan.coverage, unexplained[counted]
-        density, looks = estimate_density(
-            self.density, self.looks, float(plots.sum()), scan.volume, coverage.part_of_look
-        )
-        looks_now = looks_at_spokes(coverage)
+        at_spokes, total = looks_at_spokes(coverage), float(plots.sum())
+        share = part_of_look(at_spokes, coverage)
+        if share == 0.0:
+            return self
+        known = 0.0 if self._has_jumped(total, scan.volume * share, at_spokes) else self.looks
+        density, looks = estimate_density(self.density, known, total, scan.volume, share)
         cell = cells(sensor.space, coverage.sensor_position, scan.position[counted])
-        clutter_map = self.map.add(cell, plots, looks_now, coverage.part_of_look)
-        return Clutter(clutter_map, density, looks)
+        return Clutter(self.map.add(cell, plots, at_spokes, share), density, looks)
 
     def without(self, places: Floats, plots: Ints, coverage: Coverage, sensor: Sensor) -> Clutter:
         """
         Return what is known now that contacts at places (K, d) are.
 
-        Of so many plots (K,) that each has had, some were taken for false ones. While they stand
-        in the map, contacts near each other are clutter to each other, and some are never found.
+        Of the plots (K,) that each has had, some were taken for false ones. While they stand in
+        the map, contacts near each other are clutter to each other, and some are never found.
         """
         cell = cells(sensor.space, coverage.sensor_position, places)
-        known = self.map.without(cell, np.asarray(_UNCLAIMED * plots))
+        known = self.map.without(cell, _UNCLAIMED * np.minimum(plots, MEMORY))
         return Clutter(known, self.density, self.looks)
+
+    def _has_jumped(self, plots: float, space: float, at_spokes: Floats) -> bool:
+        """Return whether the sea got up, or a jammer went on: what was learnt is void."""
+        if plots <= JUMP * self.density * space + JUMP_PLOTS:
+            return False
+        return plots > JUMP * self.map.expected(at_spokes) + JUMP_PLOTS  # else always so there
 
     def times(self, factor: float) -> Clutter:
         """Return the same plots in a larger space, or a smaller one."""
@@ -87,12 +95,9 @@ def estimate_density(
     volume : float
         Of the whole coverage in plot space.
     share : float
-        Part of a full look that this scan was, in (0, 1].
+        Part of a full look that this scan was, 1: all of one.
 
     """
-    usual = old * volume * share
-    if unexplained > JUMP * usual + JUMP_PLOTS:
-        looks = 0.0  # the sea got up, or a jammer went on: what was learnt is void
     looks = min(looks + share, MEMORY)
     new = old + min(share / looks, 1.0) * (unexplained / (volume * share) - old)
     return max(new, _LEAST_PLOTS / volume), looks

@@ -63,16 +63,25 @@ class ClutterMap:
         looks : (A,) array
             Of the scan at each spoke, see `looks_at_spokes`.
         share : float
-            Part of a full look that the scan was, in (0, 1].
+            Part of a full look that the scan was, see `part_of_look`.
 
         """
         fresh = np.asarray(np.bincount(cell, plots, self.count.size), np.float64)
-        fresh, now = fresh.reshape(self.count.shape), looks[:, None]
+        fresh = fresh.reshape(self.count.shape)
         kept: Floats | float = math.exp(-share / MEMORY)
         if _blocks(fresh).max() > JUMP_PLOTS:  # where rain sets in, the calm before is void
-            usual = self.count * (now / np.maximum(self.looks, 1e-9))
-            kept = np.where(_have_jumped(fresh, usual), 0.0, kept)
-        return ClutterMap(kept * self.count + fresh, kept * self.looks + now)
+            kept = np.where(_have_jumped(fresh, self._usual(looks)), 0.0, kept)
+        return ClutterMap(kept * self.count + fresh, kept * self.looks + looks[:, None])
+
+    def expected(self, looks: Floats) -> float:
+        """Return the plots expected of so many looks (A,) at each spoke; inf: of new ones."""
+        if (looks > 0.0)[(self.looks == 0.0).all(axis=1)].any():
+            return np.inf
+        return float(self._usual(looks).sum())
+
+    def _usual(self, looks: Floats) -> Floats:
+        """Return the plots (A, R) that were usual in so many looks (A,) at each spoke."""
+        return self.count * (looks[:, None] / np.maximum(self.looks, 1e-9))
 
     def without(self, cell: Ints, plots: Floats) -> ClutterMap:
         """Return the map less so many plots (K,) in or beside each cell (K,)."""
@@ -113,8 +122,14 @@ def looks_at_spokes(coverage: Coverage) -> Floats:
     looks = _turns(begin, begin + width)
     if coverage.sweep:
         ends = sorted((coverage.start_azimuth, coverage.start_azimuth + coverage.sweep))
-        looks = looks * _turns(*ends)
+        turns = _turns(*ends)
+        looks = np.where(turns < 1.0, np.minimum(looks, turns), looks * turns)
     return looks
+
+
+def part_of_look(looks: Floats, coverage: Coverage) -> float:
+    """Return how much of all that the sensor sees it looked at; `looks` (A,) at each spoke."""
+    return float(looks.sum()) * TURN / (SPOKES * coverage.sector_width)
 
 
 def _turns(begin: float, end: float) -> Floats:

@@ -37,12 +37,14 @@ class Pattern:
     depth: Floats  # (R,) rings: plot space of one cell of each
 
     @staticmethod
-    def of(clutter_map: ClutterMap, mean: float, scan: Scan, sensor: Sensor) -> Pattern:
-        """Return the pattern about where the sensor is in this scan."""
+    def of(clutter_map: ClutterMap, mean: float, scan: Scan, sensor: Sensor) -> Pattern | None:
+        """Return the pattern about where the sensor is in this scan; None: it sees no ring."""
         nearer = sensor.plot_space_volume(RING_EDGES[: rings_of(sensor.space) + 1])
         cell = TURN / (SPOKES * scan.coverage.sector_width)  # its part of a ring
         depth = cell * np.diff(np.minimum(nearer, scan.volume))
         seen = depth.nonzero()[0]
+        if len(seen) == 0:
+            return None
         first, last = int(seen[0]), int(seen[-1]) + 1
         origin = scan.coverage.sensor_position
         return Pattern(clutter_map, mean, sensor.space, origin, first, depth[first:last])

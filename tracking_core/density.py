@@ -11,6 +11,7 @@ import numpy as np
 
 from tracking_core.batches import Floats, Scan
 from tracking_core.clutter import Clutter, estimate_density
+from tracking_core.clutter_map import looks_at_spokes, part_of_look
 from tracking_core.clutter_pattern import Pattern
 from tracking_core.linalg import TURN
 from tracking_core.sensing import Sensor
@@ -74,9 +75,10 @@ def expected_density(
     """
     mean = told or clutter.density
     if mean == 0.0:
-        mean, _ = estimate_density(0.0, 0.0, len(scan), scan.volume, 1.0)
+        share = part_of_look(looks_at_spokes(scan.coverage), scan.coverage) or 1.0
+        mean, _ = estimate_density(0.0, 0.0, len(scan), scan.volume, share)
     pattern, at_plots = None, np.ones(len(scan))
     if not told and not clutter.map.is_flat:
         pattern = Pattern.of(clutter.map, mean, scan, sensor)
-        at_plots = pattern.relief(scan.position)
+        at_plots = pattern.relief(scan.position) if pattern else at_plots
     return Density(mean, arrivals / scan.volume, leniency, pattern, at_plots)

@@ -14,6 +14,7 @@ import pytest
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.sensor import Radar
 from tracking_core.batches import Coverage, Scan
+from tracking_core.clutter import Clutter
 from tracking_core.clutter_map import (
     cells,
     ClutterMap,
@@ -23,7 +24,7 @@ from tracking_core.clutter_map import (
     SPOKES,
 )
 from tracking_core.clutter_pattern import Pattern
-from tracking_core.density import Density
+from tracking_core.density import Density, expected_density
 from tracking_core.faint_starts import share_of_faint
 from tracking_core.space import ANGLES, POINTS
 
@@ -161,6 +162,21 @@ def test_pattern_knows_the_space_that_the_radar_sees(nearest: float, farthest: f
     relief = pattern.relief(places(distance, 0.5) + np.array([50.0, 60.0]))
     assert_allclose(relief[[0, 3]], relief[[1, 2]])
     assert abs(relief[1] / relief[2] - 1.0) > 0.1
+
+
+def test_radar_that_sees_a_metre_has_no_pattern() -> None:
+    """Its whole space is within the depth that is assumed at least."""
+    radar, volume = Radar(RadarTrackerConfig().sensor, 2, is_polar=True), 2.0 * np.pi
+    none, plot = np.zeros(1), np.array([[0.5, 0.1]])
+    scan = Scan(
+        none, plot, np.zeros((1, 2, 2)), none, none, none, none, np.zeros((1, 3)),
+        np.zeros((1, 3)), Coverage(0.0, 0.0), volume=volume,
+    )  # fmt: skip
+    count = np.full((SPOKES, RINGS), 2.0)
+    known = Clutter(ClutterMap(count, np.ones_like(count)), 3.0, 9.0)
+    density = expected_density(known, 0.0, 1.0, scan, radar, 1.0)
+    assert density.pattern is None
+    assert_allclose(density.relief(plot), 1.0)
 
 
 def test_only_blocks_with_a_jump_forget() -> None:
