@@ -27,6 +27,7 @@ from benchmarks.scene_figures import Figures, HEAD, judge, line, play
 from benchmarks.simulated_scene import Scene
 from tracking_tools.parameter_file import parse_value
 
+FIRST = 200  # seeds below were looked at while the map of clutter was made
 Values = Mapping[str, Any]
 NOTHING: Values = {}
 SHIP, CAR = {'sensor.contact_size': 250}, {'sensor.contact_size': 4.5}
@@ -74,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description='Radars that are not as the textbook has them.')
     parser.add_argument('--runs', type=int, default=12, help='of each row')
-    parser.add_argument('--first', type=int, default=0, help='seed of the first run')
+    parser.add_argument('--first', type=int, default=FIRST, help='seed of the first run')
     parser.add_argument('--jobs', type=int, default=2, help='processes')
     parser.add_argument('--only', nargs='*', default=[''], help='scenes that begin so')
     parser.add_argument('--set', nargs='*', default=[], help='parameters as name=value')

@@ -21,7 +21,7 @@ from tracking_core.clutter_map import (
 from tracking_core.sensing import Sensor
 
 _LEAST_PLOTS = 0.5  # false plots of a look that are assumed at least: none seen is not none ever
-_UNCLAIMED = 0.5  # of a new contact's plots: the chance that it exists rose from 0 to 1
+_UNCLAIMED = 0.7  # of a new contact's plots: part was claimed as its chance to exist rose
 
 
 @dataclass(frozen=True)

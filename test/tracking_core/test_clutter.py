@@ -162,4 +162,4 @@ def test_what_is_taken_back_is_no_more_than_is_remembered() -> None:
     place = np.array([[10e3, 0.0]])
     left = [known.without(place, np.array([hits]), HERE, RADAR) for hits in (4, 10, 100)]
     taken = [count.sum() - after.map.count.sum() for after in left]
-    assert taken == pytest.approx([2.0, 5.0, 5.0])
+    assert taken == pytest.approx([2.8, 7.0, 7.0])
