@@ -18,6 +18,9 @@ pytest.importorskip('rosbags')
 TYPES = message_types.rosbags_types()
 PERIOD = 4.0
 ODD = [np.nan, np.inf, -np.inf, -1.0, 0.0, 1e-300, 1e30, 1e300, 7.0, 500.0]
+NOTHING = {'range': np.zeros(0), 'azimuth': np.zeros(0)}
+SEEN = {'range': np.array([2e4, 3e4]), 'azimuth': np.array([0.0, 1.0])}
+SOLID = SEEN | {'elevation': np.array([0.1, 0.2])}
 
 
 def session(**changes):
@@ -110,6 +113,21 @@ def test_same_messages_give_the_same_bytes():
     tables = [[bytes(radar.plots(scan(n), 0.0).data) for n in range(12)] for radar in
               (session(), session())]  # fmt: skip
     assert tables[0] == tables[1]
+
+
+@pytest.mark.parametrize(('before', 'after'), [(SEEN, SOLID), (SEEN, NOTHING), (SOLID, NOTHING)])
+def test_tracks_that_end_where_heights_are_found_or_all_is_forgotten_have_a_last_row(
+    before, after
+):
+    """The tracks after it have other dimensions, or are none."""
+    radar, tables = session(), []
+    for columns, stamp in ((before, 1000.0), (before, 1004.0), (after, 1008.0)):
+        if columns is NOTHING:
+            radar.reset()
+        msg = from_columns(columns, stamp, 'radar', TYPES)
+        tables.append(to_columns(radar.plots(msg, 0.0), 100))
+    assert tables[1]['status'].tolist() == [0, 0]
+    assert tables[2]['id'][tables[2]['status'] == 2].tolist() == tables[1]['id'].tolist()
 
 
 def turn(number, off=0.0):
