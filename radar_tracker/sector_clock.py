@@ -18,17 +18,14 @@ from msg_adapters.bad_message import BadMessage
 from radar_tracker.antenna import ONE_DIRECTION
 from radar_tracker.config import ScanConfig
 from radar_tracker.rotation import PERIODS
+from radar_tracker.sector_turn import best_turn
 from radar_tracker.sweep import Beam
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import TURN, wrap_angle
 
-SECTORS = np.arange(3, 97)  # of a turn; of two nobody can tell which way the antenna turns
 _FEWEST, _SAMPLES = 12, 1000  # sectors with plots from which a turn is learnt
 _RARELY = 4  # one try in so many sectors with plots
-_TURNS, _PART = 3.0, 0.1  # of the antenna that must be seen; and for so many sectors at least
 _STEPS = 15  # between stamps that are remembered
-_FIT = 0.95  # of the mean resultant length that evenly filled sectors have
-_SURE = 0.1  # so much better than the same turn the other way round
 _CONVINCING = 3  # messages in a row that show that plots have times after all
 _MEMORY, _TOO_STRANGE = 50.0, 0.3  # messages, and share of plots far from where they should be
 
@@ -173,26 +170,8 @@ class SectorClock:
         if alike > ONE_DIRECTION and not self._period:
             return  # a lone contact fits many rates
         count = np.rint((self._stamp - stamp) / step)
-        self._turn = self._best_turn(count, step)
+        self._turn = best_turn(self._azimuth, count, step, self._period)
         if self._turn:
             self._was_known = True
             beam = np.exp(1j * (self._azimuth - self._turn * count))
             self._middle = float(np.angle(beam.sum()))
-
-    def _best_turn(self, count: Floats, step: float) -> float:
-        """Return the turn from sector to sector that fits best [rad], 0 if none does."""
-        sectors = np.array([round(self._period / step)]) if self._period else SECTORS
-        sectors = sectors[(sectors * step > PERIODS[0]) & (sectors * step < PERIODS[1])]
-        if not len(sectors):
-            return 0.0
-        turns = np.stack([TURN / sectors, -TURN / sectors])
-        beam = self._azimuth - turns[..., None] * count
-        fit = np.abs(np.exp(1j * beam).mean(axis=-1)) / np.sinc(1.0 / sectors)
-        way, best = np.unravel_index(np.argmax(fit), fit.shape)
-        least = _TURNS if self._period else max(_TURNS, _PART * sectors[best])
-        if fit[way, best] < _FIT or np.ptp(count) < least * sectors[best]:
-            return 0.0
-        if fit[way, best] > fit[1 - way, best] + _SURE:
-            return float(turns[way, best])
-        # Both ways fit few contacts; most antennas turn clockwise, and a sector is short.
-        return float(turns[1, best]) if self._period else 0.0
