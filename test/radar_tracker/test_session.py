@@ -92,6 +92,24 @@ def test_refused_first_message_decides_nothing():
     assert len(follow(radar, range(12))) == 5
 
 
+@pytest.mark.parametrize(
+    ('fields', 'refused'),
+    [
+        ('range azimuth, azimuth x y', 1),
+        ('azimuth x y, range azimuth', 1),
+        ('azimuth x y, x y', 0),
+    ],
+)
+def test_plots_are_polar_where_they_have_range_and_azimuth(fields, refused):
+    """Places with an azimuth are none: after polar plots they are refused, not read as NaN."""
+    radar = session()
+    for stamp, names in enumerate(fields.split(', ')):
+        columns = dict.fromkeys(names.split(), np.ones(1))
+        radar.plots(from_columns(columns, 1000.0 + stamp, 'radar', TYPES), 0.0)
+    assert radar.counts['plots'].refused['fields changed'] == refused
+    assert radar.counts['plots'].rows == 2 - refused
+
+
 @pytest.mark.parametrize(('set_to', 'told'), [('/radar', 'radar'), ('radar', '/radar')])
 def test_frames_are_the_same_with_and_without_a_slash(set_to, told):
     """As ROS 1 wrote them; what is published has none, as tf2 wants it."""
