@@ -80,3 +80,31 @@ def test_first_plots_without_a_transform_do_not_decide_the_frame():
     with pytest.raises(NotYet):
         session.plots(turn(0.0, 'other'), 0.0)
     assert session.plots(turn(PERIOD), 0.0) is not None
+
+
+def matrix(place, value):
+    """Return the covariance of a pose with this value in one place, and on the other side."""
+    covariance = np.zeros((6, 6))
+    covariance[place] = covariance[place[::-1]] = value
+    return covariance.ravel()
+
+
+@pytest.mark.parametrize(
+    ('place', 'value'),
+    [
+        ((0, 1), 1e4), ((0, 1), 1e300), ((1, 2), 1e6), ((0, 0), 1e20), ((2, 2), 1e300),
+        ((5, 5), 1e20), ((5, 5), 1e300),
+    ],
+)  # fmt: skip
+@pytest.mark.filterwarnings('error')
+def test_one_covariance_of_own_ship_that_cannot_be_true_costs_no_track(place, value):
+    """It is that of no position, or of one that is nowhere: the plots of this turn count."""
+    session, odd = radar(), matrix(place, value)
+    for number in range(12):
+        for part in range(8):
+            time = PERIOD * number + 0.5 * part
+            session.ownship(odometry(time, odd if (number, part) == (8, 0) else None), 0.0)
+        session.plots(turn(PERIOD * number), 0.0)
+    assert session.tracks.id.tolist() == [1, 2, 3]
+    assert session.tracks.hits.tolist() == [12, 12, 12]
+    assert np.isfinite(session.instrument.tracker.state.clutter.density)
