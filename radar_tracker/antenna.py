@@ -59,11 +59,16 @@ class Antenna:
         return self._rate
 
     @property
+    def turn_time(self) -> float:
+        """Time of one turn [s]; 0 if the sensor is not known to turn."""
+        return TURN / abs(self._rate) if self._rate else 0.0
+
+    @property
     def longest_offset(self) -> float:
         """Time between a plot and the stamp of its message that can be true [s]."""
         if not self._rate:
             return np.inf
-        return _LONGEST * max(TURN / abs(self._rate), self._interval)
+        return _LONGEST * max(self.turn_time, self._interval)
 
     @property
     def _interval(self) -> float:
@@ -112,7 +117,7 @@ class Antenna:
 
         The plots of the last messages must fit in; as much as they leave open, nothing changes.
         """
-        period = TURN / abs(self._rate)
+        period = self.turn_time
         length = period if self._collects else min(self._interval, period)
         if length and len(self._spans):
             first, last = np.sort(self._spans, axis=0).T
@@ -125,7 +130,7 @@ class Antenna:
         last, self._end = self._end, end
         if self._rate == 0.0:
             return Sweep(start, end)
-        period = TURN / abs(self._rate)
+        period = self.turn_time
         contiguous = (
             bool(abs(start - last) < _LATE * period)
             if self._full_turns

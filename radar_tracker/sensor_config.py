@@ -58,7 +58,8 @@ class SensorConfig:
     dimensions: int = parameter(
         0,
         unit='1',
-        doc='2 or 3; 0: as the plots tell (elevation or z, before a track is confirmed: 3)',
+        doc='2 or 3; 0: as the plots tell (elevation or z before a track is confirmed, and again '
+        'within 100 plots: 3)',
         low=0,
         high=3,
     )
