@@ -13,7 +13,7 @@ from tracking_core.batches import Floats
 
 ANGLES = ('azimuth', 'elevation', 'bearing', 'azimuth_sd', 'elevation_sd', 'bearing_sd')
 AROUND = ('azimuth', 'bearing')  # these go all around, and tell which unit it is
-TURN, TURN_IN_DEGREES = 2.02 * np.pi, 361.0  # a full one, with some rounding
+WIDEST, WIDEST_IN_DEGREES = 2.02 * np.pi, 361.0  # a full turn, with some rounding
 MANY = 0.5  # of the rows that are numbers; fewer are faults of their own
 
 
@@ -40,7 +40,7 @@ def in_radians(values: Mapping[str, Floats], unit: str) -> dict[str, Floats]:
         return {n: np.radians(v) if n in ANGLES else v for n, v in values.items()}
     for name in AROUND:
         angle = np.abs(values.get(name, np.zeros(0)))
-        wide = np.count_nonzero((angle > TURN) & (angle <= TURN_IN_DEGREES))
+        wide = np.count_nonzero((angle > WIDEST) & (angle <= WIDEST_IN_DEGREES))
         if wide and wide >= MANY * np.count_nonzero(np.isfinite(angle)):
             raise BadMessage(
                 'angles in degrees?',

@@ -15,8 +15,9 @@ import numpy as np
 from msg_adapters.bodies import Bodies
 from msg_adapters.message_types import MessageTypes, seconds
 from msg_adapters.table import Columns, from_columns_under
-from msg_adapters.track_rows import common_columns, with_deleted
+from msg_adapters.track_rows import common_columns, gone
 from tracking_core.batches import Bools, Floats, Tracks
+from tracking_core.rows import concatenate
 
 _PLACES = np.array([0, 1, 3, 4])  # where (x, y, vx, vy) stand in (x, y, z, vx, vy, vz)
 _HEIGHTS = np.array([2, 5])  # z and vz
@@ -115,7 +116,9 @@ def from_bearing_tracks(
         Chance of the true mark to fall into the gate, as the tracker has it.
 
     """
-    rows, deleted = with_deleted(previous, tracks)
+    last = gone(previous, tracks)
+    rows = concatenate(tracks, last) if len(last) else tracks
+    deleted = np.arange(len(rows)) >= len(tracks)
     common = common_columns(rows, deleted, seconds(header.stamp), gate_probability)
     columns = bearing_track_columns(directions(rows, output), ranges, rows.gate_size[:, 0])
     return from_columns_under(header, {**columns, **common}, types)

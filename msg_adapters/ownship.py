@@ -16,13 +16,14 @@ from tracking_core.platform import Platform
 
 UNIT = 0.01  # how far the length of a quaternion may be from 1
 FARTHEST = 1e8  # m, or m/s: beyond is no platform
+_ROUNDING = 1e-9  # of the variances, by which an eigenvalue may be negative
 
 
 def to_platform(msg: Any) -> Platform:
     """
     Return one sample of the platform from an Odometry message.
 
-    Covariances that are not finite or have negative variances count as zero.
+    A covariance that is none, or that is of a pose which is anywhere, counts as zero.
 
     Raises
     ------
@@ -42,8 +43,7 @@ def to_platform(msg: Any) -> Platform:
             f'(x y z w = {", ".join(f"{value:g}" for value in orientation)})',
         )
     covariance = np.asarray(msg.pose.covariance, np.float64).reshape(6, 6)
-    diagonal = np.diagonal(covariance)
-    if not (np.isfinite(covariance).all() and (diagonal >= 0.0).all()):
+    if not _is_covariance(covariance):
         covariance = np.zeros((6, 6))
     return Platform(
         time=np.array([stamp_of(msg)]),
@@ -60,3 +60,13 @@ def _numbers(field: str, part: Any, names: str) -> Floats:
     if not (np.abs(values) <= FARTHEST).all():
         raise BadMessage('not finite', f'{field} is {", ".join(f"{value:g}" for value in values)}')
     return values
+
+
+def _is_covariance(covariance: Floats) -> bool:
+    """Return whether a pose (6,) within reach can be as unsure as that."""
+    variance, place = np.diagonal(covariance), covariance[:3, :3]
+    within = (variance >= 0.0) & (variance <= FARTHEST**2)
+    if not (np.isfinite(covariance).all() and within.all()):
+        return False
+    least = np.linalg.eigvalsh(0.5 * place + 0.5 * place.T)[0]
+    return bool(least >= -_ROUNDING * variance[:3].sum())

@@ -9,21 +9,14 @@ import numpy as np
 from msg_adapters.table import Columns
 from tracking_core.batches import Bools, Tracks
 from tracking_core.chances import chi_square_bound
-from tracking_core.rows import concatenate, take
+from tracking_core.rows import take
 
 TENTATIVE, CONFIRMED, DELETED = 0, 1, 2  # of the column `status`
 
 
-def with_deleted(previous: Tracks, tracks: Tracks) -> tuple[Tracks, Bools]:
-    """Return the tracks and below them the previous ones that are gone, and which those are."""
-    gone = ~np.isin(previous.id, tracks.id, assume_unique=True, kind='sort')
-    alike = [p.mean.shape[1:] for p in previous.planes] == [
-        p.mean.shape[1:] for p in tracks.planes
-    ]
-    if not alike:  # another sensor or estimator since: nothing to show beside each other
-        gone[:] = False
-    rows = concatenate(tracks, take(previous, gone)) if gone.any() else tracks
-    return rows, np.arange(len(rows)) >= len(tracks)
+def gone(previous: Tracks, tracks: Tracks) -> Tracks:
+    """Return those of the previous tracks that are gone."""
+    return take(previous, ~np.isin(previous.id, tracks.id, assume_unique=True, kind='sort'))
 
 
 def common_columns(rows: Tracks, deleted: Bools, stamp: float, gate_probability: float) -> Columns:

@@ -15,7 +15,7 @@ import numpy as np
 from msg_adapters.bodies import Bodies
 from msg_adapters.message_types import MessageTypes, seconds
 from msg_adapters.table import Columns, from_columns_under, to_columns
-from msg_adapters.track_rows import common_columns, with_deleted
+from msg_adapters.track_rows import common_columns, gone
 from tracking_core.batches import Floats, Tracks
 
 AXES = 3
@@ -66,14 +66,27 @@ def track_columns(
     previous: Tracks, tracks: Tracks, stamp: float, output: str, gate_probability: float
 ) -> Columns:
     """Return every column of the track table (T + D rows, the D deleted ones last)."""
-    rows, deleted = with_deleted(previous, tracks)
+    last = gone(previous, tracks)
+    columns = _columns(tracks, False, stamp, output, gate_probability)
+    if not len(last):
+        return columns
+    # They may be of a radar that was not yet found to tell heights.
+    below = _columns(last, True, stamp, output, gate_probability)
+    nothing = np.full(len(last), np.nan, np.float32)
+    return {name: np.concatenate([v, below.get(name, nothing)]) for name, v in columns.items()}
+
+
+def _columns(
+    rows: Tracks, is_last: bool, stamp: float, output: str, gate_probability: float
+) -> Columns:
+    """Return every column of these tracks, which are gone or not."""
     state, covariance = kinematics(rows, output)
     gate = np.full((len(rows), AXES), np.nan)
     gate[:, : rows.gate_size.shape[1]] = rows.gate_size
     single = np.float32
     return {
         **dict(zip(('x', 'y', 'z', 'vx', 'vy', 'vz'), state.T.astype(single), strict=True)),
-        **common_columns(rows, deleted, stamp, gate_probability),
+        **common_columns(rows, np.full(len(rows), is_last), stamp, gate_probability),
         'speed': np.hypot(state[:, 3], state[:, 4]).astype(single),
         'course': np.arctan2(state[:, 4], state[:, 3]).astype(single),
         **dict(zip(('gate_x', 'gate_y', 'gate_z'), gate.T.astype(single), strict=True)),

@@ -23,7 +23,7 @@ _SAMPLES = 400  # plots remembered while learning
 _INTERVALS = 5  # between messages, remembered
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _LONGEST = 2.0  # messages or turns that a plot may be off the stamp of its message
-_AGREEING = 3  # messages that tell from when to when they reach; the middle one is believed
+_AGREEING = 3  # messages; of as many that tell when they reach the middle one is believed
 _LEAST = 1e-3  # of a turn that a message sweeps; nothing would be a look everywhere at once
 _LATE = 0.02  # of a period by which messages of one stream may overlap or be apart
 
@@ -50,7 +50,8 @@ class Antenna:
         self._stamps, self._end = np.zeros(0), -np.inf  # of the last messages [s]
         self._gaps = NO_GAPS
         self._tries = 0
-        self._stares = stares  # told so, or plots of one moment came from different directions
+        self._stares = stares  # told so
+        self._at_once = 0  # messages with plots of one moment all around, since plots told times
 
     @property
     def rotation_rate(self) -> float:
@@ -58,11 +59,16 @@ class Antenna:
         return self._rate
 
     @property
+    def turn_time(self) -> float:
+        """Time of one turn [s]; 0 if the sensor is not known to turn."""
+        return TURN / abs(self._rate) if self._rate else 0.0
+
+    @property
     def longest_offset(self) -> float:
         """Time between a plot and the stamp of its message that can be true [s]."""
         if not self._rate:
             return np.inf
-        return _LONGEST * max(TURN / abs(self._rate), self._interval)
+        return _LONGEST * max(self.turn_time, self._interval)
 
     @property
     def _interval(self) -> float:
@@ -111,7 +117,7 @@ class Antenna:
 
         The plots of the last messages must fit in; as much as they leave open, nothing changes.
         """
-        period = TURN / abs(self._rate)
+        period = self.turn_time
         length = period if self._collects else min(self._interval, period)
         if length and len(self._spans):
             first, last = np.sort(self._spans, axis=0).T
@@ -124,7 +130,7 @@ class Antenna:
         last, self._end = self._end, end
         if self._rate == 0.0:
             return Sweep(start, end)
-        period = TURN / abs(self._rate)
+        period = self.turn_time
         contiguous = (
             bool(abs(start - last) < _LATE * period)
             if self._full_turns
@@ -144,9 +150,7 @@ class Antenna:
 
     def _learn(self, time: Floats, azimuth: Floats) -> None:
         """Follow the rate, or find it."""
-        if not (self._stares or self._rate) and len(time) and np.ptp(time) == 0.0:
-            self._stares = bool(np.abs(np.exp(1j * azimuth).mean()) < IN_STEP)
-        if self._stares:
+        if self._stares or self._is_at_once(time, azimuth) or self._at_once >= _AGREEING:
             return
         if len(time) > _SAMPLES // 2:
             evenly = np.arange(_SAMPLES // 2) * (len(time) - 1) // (_SAMPLES // 2 - 1)
@@ -163,6 +167,15 @@ class Antenna:
             self._rate = find_rate(self._time, self._azimuth, self._period, interval)
             if self._rate:
                 self._refine()
+
+    def _is_at_once(self, time: Floats, azimuth: Floats) -> bool:
+        """Return whether plots of one moment came from several directions, and count it."""
+        if len(time) and np.ptp(time) > 0.0:
+            self._at_once = 0
+        elif not self._rate and np.abs(np.exp(1j * azimuth).sum()) < IN_STEP * len(azimuth):
+            self._at_once += 1
+            return True
+        return False
 
     def _has_directions(self) -> bool:
         """Return whether plots came from all over; a lone contact fits many rates."""

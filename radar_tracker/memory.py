@@ -14,7 +14,7 @@ from tracking_session.snapshots.form import check_form
 
 # What learns replaces its attributes and never changes them in place, so references will do.
 LEARNING = ('antenna', 'sectors', 'turns')
-PLAIN = ('is_known', 'farthest', 'coverage', 'state')
+PLAIN = ('is_known', 'flat', 'farthest', 'coverage', 'state')
 
 
 def remember(tracker: RadarTracker) -> dict[str, Any]:

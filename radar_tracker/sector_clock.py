@@ -18,18 +18,16 @@ from msg_adapters.bad_message import BadMessage
 from radar_tracker.antenna import ONE_DIRECTION
 from radar_tracker.config import ScanConfig
 from radar_tracker.rotation import PERIODS
+from radar_tracker.sector_turn import best_turn
 from radar_tracker.sweep import Beam
 from tracking_core.batches import Floats, Plots
 from tracking_core.linalg import TURN, wrap_angle
 
-SECTORS = np.arange(3, 97)  # of a turn; of two nobody can tell which way the antenna turns
 _FEWEST, _SAMPLES = 12, 1000  # sectors with plots from which a turn is learnt
 _RARELY = 4  # one try in so many sectors with plots
-_TURNS, _PART = 3.0, 0.1  # of the antenna that must be seen; and for so many sectors at least
 _STEPS = 15  # between stamps that are remembered
-_FIT = 0.95  # of the mean resultant length that evenly filled sectors have
-_SURE = 0.1  # so much better than the same turn the other way round
-_CONVINCING = 3  # messages in a row that show that plots have times after all
+_CONVINCING = 3  # messages in a row that show that plots have times after all, or none any more
+_APART = 0.02  # rad, between plots that no antenna sees at the same time
 _MEMORY, _TOO_STRANGE = 50.0, 0.3  # messages, and share of plots far from where they should be
 
 
@@ -48,9 +46,9 @@ class SectorClock:
         self._period = scan.period
         self._reach = {'start': 0.5, 'middle': 0.0, 'end': -0.5}[scan.time_reference]
         self._is_whole = scan.assembly == 'message' and scan.period > 0.0
-        # As long as no plot has a time of its own.
-        self._is_needed = self._is_whole or scan.assembly in ('sector', 'rotation')
-        self._odd = 0  # messages in a row that tell times, where others did not
+        self._is_wanted = self._is_whole or scan.assembly in ('sector', 'rotation')
+        self._has_times = False  # plots tell when they were seen
+        self._odd = 0  # messages in a row that show the opposite
         self._was_known = False  # how the antenna turns
         self._last = np.nan  # stamp
         self._forget()
@@ -62,6 +60,10 @@ class SectorClock:
         self._middle = 0.0  # of the last sector [rad]
         self._tries = 0
         self._strange = 0.0  # share of the last plots that were far from their sector
+
+    @property
+    def _is_needed(self) -> bool:
+        return self._is_wanted and not self._has_times
 
     @property
     def beam(self) -> Beam | None:
@@ -87,14 +89,15 @@ class SectorClock:
             If how the antenna turns is not known yet.
 
         """
-        self._note(bool((plots.time == plots.stamp).all()))
-        if not self._is_needed:
+        x, y, _ = plots.position.T
+        azimuth = np.where(np.isnan(plots.azimuth), np.arctan2(y, x), plots.azimuth)
+        is_timed = bool((plots.time != plots.stamp).any())
+        self._note(is_timed, azimuth)
+        if not self._is_needed or (is_timed and not self._turn):
             return plots.time
         if self._is_whole:
             return plots.time + self._reach * self._period
         self._follow(plots.stamp)
-        x, y, _ = plots.position.T
-        azimuth = np.where(np.isnan(plots.azimuth), np.arctan2(y, x), plots.azimuth)
         if not self._turn:
             self._learn(plots.stamp, azimuth)
         if self._turn:
@@ -115,11 +118,14 @@ class SectorClock:
             return told
         return np.append(told, plots.stamp + (self._reach + np.array([-0.5, 0.5])) * length)
 
-    def _note(self, is_untimed: bool) -> None:
-        """Take note of whether plots tell their times: the first that do, or several in a row."""
-        self._odd = 0 if is_untimed else self._odd + 1
-        if self._odd and (not self._was_known or self._odd > _CONVINCING):
-            self._is_needed = False
+    def _note(self, is_timed: bool, azimuth: Floats) -> None:
+        """Take note of whether plots tell their times, as soon as several messages show it."""
+        if not is_timed and (np.abs(wrap_angle(azimuth - azimuth[:1])) < _APART).all():
+            return  # all may have been seen just at the stamp
+        self._odd = self._odd + 1 if is_timed != self._has_times else 0
+        if self._odd == _CONVINCING:
+            self._has_times, self._odd = is_timed, 0
+            self._forget()
 
     @property
     def _step(self) -> float:
@@ -173,26 +179,8 @@ class SectorClock:
         if alike > ONE_DIRECTION and not self._period:
             return  # a lone contact fits many rates
         count = np.rint((self._stamp - stamp) / step)
-        self._turn = self._best_turn(count, step)
+        self._turn = best_turn(self._azimuth, count, step, self._period)
         if self._turn:
             self._was_known = True
             beam = np.exp(1j * (self._azimuth - self._turn * count))
             self._middle = float(np.angle(beam.sum()))
-
-    def _best_turn(self, count: Floats, step: float) -> float:
-        """Return the turn from sector to sector that fits best [rad], 0 if none does."""
-        sectors = np.array([round(self._period / step)]) if self._period else SECTORS
-        sectors = sectors[(sectors * step > PERIODS[0]) & (sectors * step < PERIODS[1])]
-        if not len(sectors):
-            return 0.0
-        turns = np.stack([TURN / sectors, -TURN / sectors])
-        beam = self._azimuth - turns[..., None] * count
-        fit = np.abs(np.exp(1j * beam).mean(axis=-1)) / np.sinc(1.0 / sectors)
-        way, best = np.unravel_index(np.argmax(fit), fit.shape)
-        least = _TURNS if self._period else max(_TURNS, _PART * sectors[best])
-        if fit[way, best] < _FIT or np.ptp(count) < least * sectors[best]:
-            return 0.0
-        if fit[way, best] > fit[1 - way, best] + _SURE:
-            return float(turns[way, best])
-        # Both ways fit few contacts; most antennas turn clockwise, and a sector is short.
-        return float(turns[1, best]) if self._period else 0.0

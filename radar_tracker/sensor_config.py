@@ -10,27 +10,17 @@ import numpy as np
 
 from msg_adapters.azimuths import angle_unit, azimuth_convention, azimuth_reference
 from tracking_core.config import parameter, validate
-
-FARTHEST = 1e7  # m, of a sensor from the origin of its platform or of the tracking frame
-MOST_YAW = 6.3  # rad, a little more than a full turn
+from tracking_core.mount_config import mount_offset, mount_yaw
 
 
 @dataclass(frozen=True)
 class MountConfig:
     """Where the radar sits on its platform."""
 
-    x: float = parameter(
-        0.0, unit='m', doc='forward of the platform origin', low=-FARTHEST, high=FARTHEST
-    )
-    y: float = parameter(
-        0.0, unit='m', doc='left of the platform origin', low=-FARTHEST, high=FARTHEST
-    )
-    z: float = parameter(
-        0.0, unit='m', doc='above the platform origin', low=-FARTHEST, high=FARTHEST
-    )
-    yaw: float = parameter(
-        0.0, unit='rad', doc='anticlockwise from the platform x axis', low=-MOST_YAW, high=MOST_YAW
-    )
+    x: float = mount_offset('forward of')
+    y: float = mount_offset('left of')
+    z: float = mount_offset('above')
+    yaw: float = mount_yaw()
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""
@@ -68,7 +58,8 @@ class SensorConfig:
     dimensions: int = parameter(
         0,
         unit='1',
-        doc='2 or 3; 0: as the plots tell (elevation or z, before a track is confirmed: 3)',
+        doc='2 or 3; 0: as the plots tell (elevation or z before a track is confirmed, and again '
+        'within 100 plots: 3)',
         low=0,
         high=3,
     )

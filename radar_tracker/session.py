@@ -80,7 +80,7 @@ class RadarInstrument:
         longest = self.tracker.antenna.longest_offset
         reading = to_plots(msg, config.sensor, config.max_plots, self._overrides, longest)
         both = mapping and len(reading.plots)
-        if both and ('azimuth' in reading.mapping) != ('azimuth' in mapping):
+        if both and reading.is_polar != ({'range', 'azimuth'} <= mapping.keys()):
             raise BadMessage(
                 'fields changed',
                 f'fields were {sorted(mapping.values())}, '

@@ -14,13 +14,13 @@ from radar_tracker.antenna import Antenna
 from radar_tracker.build import build_setup
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import azimuth_of, farthest
+from radar_tracker.heights import flat_after, is_other
 from radar_tracker.mounting import coverage_of, PlatformDoubt
 from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
 from radar_tracker.sweep import Beam
 from radar_tracker.turns import Turns
 from tracking_core.batches import Coverage, Floats, Plots, Tracks
-from tracking_core.linalg import TURN
 from tracking_core.platform import Platform, pose_at
 from tracking_core.space import Space
 from tracking_core.state import State
@@ -51,7 +51,7 @@ class RadarTracker:
         self.sectors = SectorClock(scan)
         self.turns = Turns(scan.period) if scan.assembly == 'rotation' else None
         self.radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
-        self.is_known = False  # which radar it is
+        self.is_known, self.flat = False, 0  # which radar it is; plots in a row without a height
         self.farthest = 0.0  # plot so far [m]
         self.coverage = Coverage(0.0, 0.0)  # of the last message, in the tracking frame
         self.core = Tracker(build_setup(self.config, self.radar))
@@ -69,8 +69,7 @@ class RadarTracker:
     @property
     def turn_time(self) -> float:
         """Time of one turn of the antenna [s], 0 if it is not known to turn."""
-        rate = abs(self.antenna.rotation_rate)
-        return TURN / rate if rate else 0.0
+        return self.antenna.turn_time
 
     def save(self) -> dict[str, Any]:
         """Return what `restore` takes to go back to this moment: references, no copies of data."""
@@ -171,11 +170,12 @@ class RadarTracker:
     def _recognise(self, plots: Plots) -> None:
         """Learn from the first plots what radar this is, and how far it sees."""
         if len(plots):
-            radar = Radar.for_plots(self.config.sensor, plots)
-            # A first sector may have no height: none is too late until a track is confirmed.
-            grows = radar.dimensions > self.radar.dimensions and not self.tracks.confirmed.any()
-            if grows or not self.is_known:
-                self._become(radar)
+            seen = Radar.for_plots(self.config.sensor, plots)
+            self.flat = flat_after(self.flat, self.radar, seen, len(plots))
+            if not self.is_known or (
+                is_other(self.radar, seen, self.flat) and not self.tracks.confirmed.any()
+            ):
+                self._become(seen)
             self._see(farthest(plots, self.radar.is_polar, self.radar.dimensions))
 
     def _become(self, radar: Radar) -> None:

@@ -10,9 +10,8 @@ import numpy as np
 
 from msg_adapters.azimuths import angle_unit, azimuth_convention, azimuth_reference
 from tracking_core.config import parameter, validate
+from tracking_core.mount_config import mount_offset, mount_yaw
 
-FARTHEST = 1e7  # m, of a sensor from the origin of its platform or of the tracking frame
-MOST_YAW = 6.3  # rad, a little more than a full turn
 _ALL_AROUND = 6.28  # rad, as a full turn is written
 
 
@@ -20,15 +19,9 @@ _ALL_AROUND = 6.28  # rad, as a full turn is written
 class MountConfig:
     """Where the sonar sits on its platform."""
 
-    x: float = parameter(
-        0.0, unit='m', doc='forward of the platform origin', low=-FARTHEST, high=FARTHEST
-    )
-    y: float = parameter(
-        0.0, unit='m', doc='left of the platform origin', low=-FARTHEST, high=FARTHEST
-    )
-    yaw: float = parameter(
-        0.0, unit='rad', doc='anticlockwise from the platform x axis', low=-MOST_YAW, high=MOST_YAW
-    )
+    x: float = mount_offset('forward of')
+    y: float = mount_offset('left of')
+    yaw: float = mount_yaw()
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""

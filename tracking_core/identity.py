@@ -59,8 +59,14 @@ def keep_ids(before: State, after: State, first: int, space: Space = POINTS) -> 
 
 
 def _difference(a: Tracks, rows: Ints, b: Tracks, columns: Ints, space: Space) -> Floats:
-    """Return the mean square difference (R, C) of the states, in units of their variances."""
+    """
+    Return the mean square difference (R, C) of the states, in units of their variances.
+
+    It is infinite between states of other dimensions: the radar was found to tell heights.
+    """
     total, size = np.zeros((len(rows), len(columns))), 0
+    if [p.mean.shape[2] for p in a.planes] != [p.mean.shape[2] for p in b.planes]:
+        return total + np.inf
     for one, other in zip(a.planes, b.planes, strict=True):
         (m, P), (n, Q) = one.moments(), other.moments()
         variance = np.einsum('tnn->tn', P)[rows, None] + np.einsum('tnn->tn', Q)[None, columns]

@@ -25,6 +25,8 @@ _SHORTEST = 1e-6  # s, between two samples
 class StalePlatform(ValueError):  # noqa: N818 (it is the platform's data that are stale)
     """No sample of the platform is near enough to the wanted time; says age and limit."""
 
+    reason = 'own ship stale'  # to count by
+
 
 @dataclass(frozen=True)
 class Platform:

@@ -10,7 +10,7 @@ the platform's odometry, everything else is refused with both names and the ways
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage, shown
@@ -51,6 +51,10 @@ class TrackingFrame:
     polar: bool = False  # plots are directions from the sensor, not places
     learnt: bool = False  # the name came from a message
     newcomer: Newcomer = field(default_factory=Newcomer)
+
+    def copy(self) -> TrackingFrame:
+        """Return another one that knows the same."""
+        return replace(self)
 
     def remember(self) -> dict[str, Any]:
         """Return what became known, for a restart."""

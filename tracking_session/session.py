@@ -109,19 +109,19 @@ class Session:
         """
         try:
             return self._follow(msg, received)
-        except BadMessage as error:
+        except (BadMessage, StalePlatform) as error:
             self.ledger.refuse(self.instrument.topic, error.reason, error)
-        except StalePlatform as error:
-            self.ledger.refuse(self.instrument.topic, 'own ship stale', error)
         return None
 
     def _follow(self, msg: Any, received: float) -> Any:
         reading = self.instrument.read(msg, self.mapping)
         plots = reading.plots
-        self.frame.check_plots(plots.frame, reading.is_polar)
+        frame = self.frame.copy()  # a message that cannot be used decides nothing
+        frame.check_plots(plots.frame, reading.is_polar)
         if len(plots):
-            self.instrument.check(self.frame, self.ledger.warn)
-        platform = self.whereabouts.covering(self.instrument.moments(plots), self.frame)
+            self.instrument.check(frame, self.ledger.warn)
+        platform = self.whereabouts.covering(self.instrument.moments(plots), frame)
+        self.frame = frame
         if self._history.takes(plots.stamp) and not self.guard.is_going_back:
             self._history.insert(plots, platform, self.frame)
             self._use(reading)

@@ -33,8 +33,10 @@ def pose_with_covariance(msg: Any) -> Columns:
     arrival [rad], with its standard deviation where the covariance tells one.
     """
     pose, q = msg.pose.pose, msg.pose.pose.orientation
-    length = q.x**2 + q.y**2 + q.z**2 + q.w**2
-    yaw = np.arctan2(2.0 * (q.w * q.z + q.x * q.y), length - 2.0 * (q.y**2 + q.z**2))
+    x, y, z, w = np.array([q.x, q.y, q.z, q.w])  # of numpy: too large is infinite, no exception
+    with np.errstate(over='ignore', invalid='ignore'):
+        length = x**2 + y**2 + z**2 + w**2
+        yaw = np.arctan2(2.0 * (w * z + x * y), length - 2.0 * (y**2 + z**2))
     variance = msg.pose.covariance[YAW]
     return {
         **positions([pose.position]),

@@ -259,3 +259,15 @@ def test_package_that_is_not_installed_is_named():
     """The error says what to install and what is there."""
     with pytest.raises(ValueError, match=r'needs the package radar_msgs.*ros-.*-radar-msgs'):
         message_class('radar_msgs/RadarScan')
+
+
+@pytest.mark.parametrize('value', [1e160, -1e300, np.inf, np.nan])
+def test_turn_beyond_all_numbers_is_no_direction(ros, value):
+    """A quaternion of Python's floats: their squares may be too large for one."""
+    odd = pose(ros, 7.0, 8.0)
+    odd.orientation.z = odd.orientation.x = value
+    told = ros('geometry_msgs/PoseWithCovariance', pose=odd, covariance=np.zeros(36))
+    msg = ros('geometry_msgs/PoseWithCovarianceStamped', header=header(ros), pose=told)
+    assert len(to_plots(msg, RADAR, 9).plots) == 1
+    with pytest.raises(BadMessage, match=r'bearing is not a number \(1\)'):
+        to_bearings(msg, SONAR, 9)

@@ -59,3 +59,12 @@ def test_covariance_that_is_none_counts_as_zero(types, value):
     sample = to_platform(odometry(types, covariance=np.full(36, value)))
     assert not sample.position_covariance.any()
     assert not sample.yaw_variance.any()
+
+
+def test_covariance_of_a_line_is_one(types):
+    """Own ship may know one direction only; rounding makes one of its variances negative."""
+    place = np.zeros((6, 6))
+    place[:3, :3] = np.outer([3.0, 4.0, 0.1], [3.0, 4.0, 0.1])
+    place[:2, :2] -= 1e-10
+    sample = to_platform(odometry(types, covariance=place.ravel()))
+    np.testing.assert_array_equal(sample.position_covariance[0], place[:3, :3])

@@ -88,6 +88,21 @@ def test_track_that_is_gone_is_sent_once_as_deleted(types, make_tracks):
     assert 2 not in columns['status'][:2]
 
 
+@pytest.mark.parametrize('before', [2, 3])
+def test_track_of_other_dimensions_has_its_last_row(types, make_tracks, before):
+    """The radar was found to tell heights, or began anew; the columns are those of now."""
+    previous, now = make_tracks([1], dimensions=before), make_tracks([3], dimensions=5 - before)
+    columns = rows_of(previous, now, types)
+    assert list(columns) == list(rows_of(now, now, types))
+    np.testing.assert_array_equal(columns['id'], [3, 1])
+    np.testing.assert_array_equal(columns['status'], [1, 2])
+    last = rows_of(previous, previous, types)
+    for name, values in columns.items():
+        expected = last[name] if name in last else np.full(1, np.nan)
+        if name != 'status':
+            np.testing.assert_array_equal(values[1:], expected)
+
+
 def test_no_tracks_make_an_empty_table(types, make_tracks):
     """The columns are there without rows."""
     columns = rows_of(make_tracks([]), make_tracks([]), types)

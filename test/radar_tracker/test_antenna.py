@@ -79,6 +79,27 @@ def test_follow_knows_a_sensor_that_stares() -> None:
     assert all(sweep.angle == 0.0 for sweep in sweeps)
 
 
+@pytest.mark.parametrize('period', [0.0, 4.0], ids=['learnt', 'told'])
+@pytest.mark.parametrize('odd', [1, 2, 10])
+def test_follow_learns_the_rotation_after_plots_of_one_moment(period: float, odd: int) -> None:
+    """A driver that told no times at first, or a faulty message: later plots know better."""
+    antenna, turns = Antenna(period, True, 'start'), sensed(4.0, 'clockwise', 20)
+    for number, plots in enumerate(turns):
+        untimed = replace(plots, time=np.full(len(plots), plots.stamp))
+        antenna.follow(untimed if number < odd else plots, plots.azimuth)
+    assert antenna.rotation_rate == pytest.approx(-np.pi / 2.0, rel=1e-4)
+
+
+@pytest.mark.parametrize('period', [0.0, 4.0], ids=['learnt', 'told'])
+def test_one_message_with_times_makes_no_sensor_turn(period: float) -> None:
+    """The next one shows that it does not: all others see everything at once."""
+    antenna, turns = Antenna(period, True, 'start'), sensed(4.0, 'clockwise', 40)
+    for number, plots in enumerate(turns):
+        untimed = replace(plots, time=np.full(len(plots), plots.stamp))
+        antenna.follow(plots if number == 20 else untimed, plots.azimuth)
+        assert antenna.rotation_rate == 0.0 or number == 20
+
+
 def test_follow_is_not_fooled_by_random_directions() -> None:
     """Times and azimuths that have nothing to do with each other are no rotation."""
     rng, antenna = np.random.default_rng(5), Antenna(0.0, True, 'start')

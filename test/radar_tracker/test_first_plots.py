@@ -64,6 +64,26 @@ def test_first_height_makes_a_radar_3d_until_a_track_is_confirmed():
     assert late.tracks.id.tolist() == [1, 2, 3]
 
 
+@pytest.mark.parametrize('odd', [1, 2])
+def test_height_that_none_follows_keeps_no_track_from_starting(odd):
+    """One faulty message, or two long after each other: the others tell none, and so it is 2-D."""
+    tracker = tracker_of()
+    for number in range(80):
+        tracker.track(heights(number, number in (0, 50)[:odd], False, False))
+    assert tracker.radar.dimensions == 2
+    assert tracker.tracks.confirmed.sum() == 3
+    assert tracker.tracks.id.min() < 10
+
+
+def test_heights_that_are_seldom_are_believed():
+    """One contact of three has one, half of the time: it is tracked in 3-D, as long as it is."""
+    tracker = tracker_of()
+    for number in range(80):
+        tracker.track(heights(number, number % 2 == 0, False, False))
+    assert tracker.radar.dimensions == 3
+    assert tracker.tracks.confirmed.any()
+
+
 def test_plot_at_the_least_range_is_a_plot():
     """As the only plot so far it leaves no depth to count false plots in."""
     tracker = tracker_of(sensor__range_min=100.0)

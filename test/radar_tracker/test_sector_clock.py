@@ -80,7 +80,7 @@ def test_stamp_means_what_the_user_says(reference, share):
     radar, ahead = replace(RADAR, clutter_per_turn=30.0), share * PERIOD / 8
     for plots in sensed(radar, 8, 20):
         times = told(clock, untimed(plots, ahead))
-    np.testing.assert_allclose(times, plots.time, atol=0.01 * PERIOD)
+    np.testing.assert_allclose(times, plots.time, rtol=0.0, atol=0.01 * PERIOD)
 
 
 def test_lone_contact_needs_a_period_and_is_taken_to_be_turned_to_clockwise():
@@ -104,7 +104,7 @@ def test_antenna_that_turns_otherwise_is_learnt_anew():
     for plots in later:
         shifted = replace(plots, time=plots.time + 30.0, stamp=plots.stamp + 30.0)
         times = told(clock, untimed(shifted))
-    np.testing.assert_allclose(times, shifted.time, atol=0.01 * PERIOD)
+    np.testing.assert_allclose(times, shifted.time, rtol=0.0, atol=0.01 * PERIOD)
 
 
 @pytest.mark.parametrize('assembly', ['sector', 'rotation', 'message', 'snapshot'])
@@ -204,11 +204,53 @@ def test_one_message_with_times_changes_nothing_and_several_do():
             clock.times(replace(untimed(plots), time=plots.time))
         else:
             times = told(clock, untimed(plots))
-    np.testing.assert_allclose(times, found[-1].time, atol=0.01 * PERIOD)
+    np.testing.assert_allclose(times, found[-1].time, rtol=0.0, atol=0.01 * PERIOD)
     for plots in found:
         shifted = replace(plots, time=plots.time + 75.0, stamp=plots.stamp + 75.0)
         times = clock.times(shifted)
     np.testing.assert_array_equal(times, shifted.time)
+
+
+def shifted(plots, seconds):
+    """Return plots so much later [s]."""
+    return replace(plots, time=plots.time + seconds, stamp=plots.stamp + seconds)
+
+
+@pytest.mark.parametrize('odd', [1, 2])
+@pytest.mark.parametrize('clutter', [0.0, 30.0])
+def test_first_message_with_a_time_does_not_hide_that_others_have_none(odd, clutter):
+    """It keeps its own; the turn is learnt from those after it, be they of one plot each."""
+    clock = SectorClock(ScanConfig(assembly='sector', period=PERIOD))
+    found = [p for p in sensed(replace(RADAR, clutter_per_turn=clutter), 8, 40) if len(p)]
+    for number, plots in enumerate(found):
+        if number < odd:
+            wrong = replace(untimed(plots), time=np.full(len(plots), plots.stamp + 0.01))
+            np.testing.assert_array_equal(clock.times(wrong), wrong.time)
+        else:
+            times = told(clock, untimed(plots))
+    assert clock.beam.rate == pytest.approx(-2.0 * np.pi / PERIOD, rel=1e-6)
+    if clutter:
+        np.testing.assert_allclose(times, found[-1].time, rtol=0.0, atol=0.01 * PERIOD)
+
+
+def test_times_are_learnt_again_where_the_driver_tells_none_any_more():
+    """As after its restart; then it tells them again."""
+    clock = SectorClock(ScanConfig(assembly='sector'))
+    found = [p for p in sensed(replace(RADAR, clutter_per_turn=30.0), 8, 30) if len(p)]
+    for number, kind in enumerate((untimed, shifted, untimed, shifted)):
+        for plots in found:
+            times = told(clock, kind(shifted(plots, 75.0 * number), 0.0))
+        atol = 0.01 * PERIOD * (kind is untimed)
+        np.testing.assert_allclose(times, plots.time + 75.0 * number, rtol=0.0, atol=atol)
+
+
+def test_full_turns_with_times_keep_them_from_the_first_on():
+    """Though a period is told; a lone plot beside the stamp is no sign that others have none."""
+    clock = SectorClock(ScanConfig(period=PERIOD))
+    for number in range(40):
+        time = PERIOD * number + np.array([0.0, 0.5, 0.9])[: 1 if number >= 5 else 3]
+        plots = replace(Plots.polar(time, 1e4 + time, time), stamp=PERIOD * number)
+        np.testing.assert_array_equal(clock.times(plots), time)
 
 
 def test_lost_sectors_are_counted():

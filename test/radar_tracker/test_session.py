@@ -18,6 +18,9 @@ pytest.importorskip('rosbags')
 TYPES = message_types.rosbags_types()
 PERIOD = 4.0
 ODD = [np.nan, np.inf, -np.inf, -1.0, 0.0, 1e-300, 1e30, 1e300, 7.0, 500.0]
+NOTHING = {'range': np.zeros(0), 'azimuth': np.zeros(0)}
+SEEN = {'range': np.array([2e4, 3e4]), 'azimuth': np.array([0.0, 1.0])}
+SOLID = SEEN | {'elevation': np.array([0.1, 0.2])}
 
 
 def session(**changes):
@@ -89,6 +92,24 @@ def test_refused_first_message_decides_nothing():
     assert len(follow(radar, range(12))) == 5
 
 
+@pytest.mark.parametrize(
+    ('fields', 'refused'),
+    [
+        ('range azimuth, azimuth x y', 1),
+        ('azimuth x y, range azimuth', 1),
+        ('azimuth x y, x y', 0),
+    ],
+)
+def test_plots_are_polar_where_they_have_range_and_azimuth(fields, refused):
+    """Places with an azimuth are none: after polar plots they are refused, not read as NaN."""
+    radar = session()
+    for stamp, names in enumerate(fields.split(', ')):
+        columns = dict.fromkeys(names.split(), np.ones(1))
+        radar.plots(from_columns(columns, 1000.0 + stamp, 'radar', TYPES), 0.0)
+    assert radar.counts['plots'].refused['fields changed'] == refused
+    assert radar.counts['plots'].rows == 2 - refused
+
+
 @pytest.mark.parametrize(('set_to', 'told'), [('/radar', 'radar'), ('radar', '/radar')])
 def test_frames_are_the_same_with_and_without_a_slash(set_to, told):
     """As ROS 1 wrote them; what is published has none, as tf2 wants it."""
@@ -110,6 +131,21 @@ def test_same_messages_give_the_same_bytes():
     tables = [[bytes(radar.plots(scan(n), 0.0).data) for n in range(12)] for radar in
               (session(), session())]  # fmt: skip
     assert tables[0] == tables[1]
+
+
+@pytest.mark.parametrize(('before', 'after'), [(SEEN, SOLID), (SEEN, NOTHING), (SOLID, NOTHING)])
+def test_tracks_that_end_where_heights_are_found_or_all_is_forgotten_have_a_last_row(
+    before, after
+):
+    """The tracks after it have other dimensions, or are none."""
+    radar, tables = session(), []
+    for columns, stamp in ((before, 1000.0), (before, 1004.0), (after, 1008.0)):
+        if columns is NOTHING:
+            radar.reset()
+        msg = from_columns(columns, stamp, 'radar', TYPES)
+        tables.append(to_columns(radar.plots(msg, 0.0), 100))
+    assert tables[1]['status'].tolist() == [0, 0]
+    assert tables[2]['id'][tables[2]['status'] == 2].tolist() == tables[1]['id'].tolist()
 
 
 def turn(number, off=0.0):

@@ -11,6 +11,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.tracker import RadarTracker
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.tracker import SonarTracker
+from tracking_core.config import with_values
 from tracking_core.identity import keep_ids
 from tracking_core.rows import take
 from tracking_core.space import ANGLES
@@ -58,6 +59,23 @@ def test_nothing_to_compare_is_no_fault():
     nobody = replace(after, tracks=take(after.tracks, np.zeros(0, np.int64)))
     assert keep_ids(after, nobody, first=3).next_id == after.next_id
     assert_array_equal(keep_ids(after, after, first=3).tracks.id, [1, 2])
+
+
+def test_nobody_is_the_same_in_other_dimensions():
+    """The radar was found to tell heights: all get new ids, either way round."""
+    solid = RadarTracker(with_values(RadarTrackerConfig(), {'sensor.dimensions': 3}))
+    solid.start_track(np.zeros(3), 0.0)
+    joint = RadarTracker(
+        with_values(
+            RadarTrackerConfig(),
+            {'sensor.dimensions': 3, 'estimator': 'markov_jump_joint'},
+        )
+    )
+    joint.start_track(np.zeros(3), 0.0)
+    flat = state_of({2: 0.0, 3: 5e3})
+    for after in (solid.state, joint.state):
+        assert_array_equal(keep_ids(flat, after, first=1).tracks.id, [1])
+        assert_array_equal(keep_ids(after, flat, first=2).tracks.id, [2, 3])
 
 
 def test_bearings_a_turn_apart_are_the_same():

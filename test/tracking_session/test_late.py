@@ -205,6 +205,28 @@ def test_commands_of_a_user_are_not_undone() -> None:
     assert number not in session.tracks.id
 
 
+def polar(stamp, *elevation):
+    """Return three plots, with heights as soon as one is given."""
+    columns = {'range': np.array([8e3, 12e3, 15e3]), 'azimuth': np.array([0.0, 1.5, -2.0])}
+    if elevation:
+        columns['elevation'] = np.array(elevation)
+    return from_columns(columns, stamp, 'radar', TYPES)
+
+
+@pytest.mark.parametrize('first', [(1.0, 5.0, 9.0), (1.0, 5.0)])
+def test_late_message_may_be_the_first_with_heights(first) -> None:
+    """The radar is 3-D from then on; what was 2-D is followed once more with new ids."""
+    session = radar()
+    tables = run(session, [polar(stamp) for stamp in first])
+    flat = set(tables[-1]['id'])
+    assert flat
+    assert session.plots(polar(3.0, 0.3, 0.2, 0.1), 0.0) is None
+    assert session.counts['plots'].late_used == 1
+    assert session.instrument.tracker.radar.dimensions == 3
+    table = run(session, [polar(first[-1] + PERIOD, 0.3, 0.2, 0.1)])[-1]
+    assert not flat & set(table['id'][table['status'] < 2])
+
+
 def test_late_parameter_has_limits() -> None:
     """The message names it."""
     with pytest.raises(ValueError, match=r'LateConfig.late must be in \[0, 20\]'):
