@@ -10,6 +10,7 @@ import numpy as np
 
 from tracking_core.association.clusters import renumber
 from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, Tracks
+from tracking_core.chances import MORE_LIKELY_THAN_NOT
 from tracking_core.composition import Setup
 from tracking_core.density import Density
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
@@ -20,7 +21,6 @@ from tracking_core.unresolved.resolution import Resolution, within_limit
 from tracking_core.unresolved.sets import places_of
 from tracking_core.update import Look
 
-_CLAIMED = 0.5  # a plot more likely than this from a known contact starts no other track
 _SURE = 1.0 - 1e-9  # no start is surer: the others of a plot may still be the right one
 
 
@@ -54,7 +54,8 @@ def start_tracks(
         Of the tracker.
 
     """
-    free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
+    unclaimed = seen.claimed < MORE_LIKELY_THAN_NOT
+    free = ~seen.waiting & unclaimed & np.isfinite(scan.position).all(axis=1)
     if setup.resolution is not None:
         free &= ~_hidden(scan, seen, setup, setup.resolution)
     plots = Seeds(
