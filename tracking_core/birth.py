@@ -28,7 +28,7 @@ _SURE = 1.0 - 1e-9  # no start is surer: the others of a plot may still be the r
 class Born:
     """What a scan of M plots gave birth to."""
 
-    tracks: Tracks  # tentative, the likeliest first
+    tracks: Tracks  # the likeliest first
     seeds: Seeds  # plots that may start a track with a later one
     used: Floats  # (M,) chance of each plot that a new track explains it
     leniency: float  # tentative tracks may be so much less likely than usual
@@ -80,6 +80,9 @@ def start_tracks(
     left = change(fresh, free=fresh.free * (1.0 - used[free]))
     if len(starts.plot):
         born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)
+        if setup.lifecycle.counts:
+            existence = born.existence_probability
+            born = change(born, confirmed=setup.lifecycle.judge(born, existence)[0])
     else:
         born = take(seen.tracks, slice(0))
     return Born(born, concatenate(young, left), used, starts.leniency)

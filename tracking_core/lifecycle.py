@@ -21,7 +21,7 @@ _HISTORY = (1 << 60) - 1  # looks remembered as bits
 class Lifecycle(Protocol):
     """What a tracker asks about the life of its tracks."""
 
-    follows_faint: ClassVar[bool]  # plots are weighed against clutter, so a faint track is no risk
+    counts: ClassVar[bool]  # looks with plots; how likely these are clutter is not weighed
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
@@ -57,7 +57,7 @@ class Existence:
     """
 
     config: ExistenceConfig
-    follows_faint: ClassVar[bool] = True
+    counts: ClassVar[bool] = False
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
@@ -81,7 +81,7 @@ class MOfN:
     """Confirmed by M plots in N looks; deleted when that can no longer come, or after misses."""
 
     config: MOfNConfig
-    follows_faint: ClassVar[bool] = False
+    counts: ClassVar[bool] = True
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return 1 (T,): counting knows no doubt."""
@@ -110,7 +110,7 @@ class ErrorRatio:
     """
 
     config: ErrorRatioConfig
-    follows_faint: ClassVar[bool] = False
+    counts: ClassVar[bool] = True
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return 1 (T,): counting knows no doubt."""
