@@ -90,7 +90,7 @@ def start_tracks(
 
 def _hidden(scan: Scan, seen: Look, setup: Setup, resolution: Resolution) -> Bools:
     """Return which plots (M,) a contact near a known one, which has its own plot, cannot make."""
-    known = take(seen.tracks, seen.passed & seen.tracks.confirmed & (seen.tracks.misses == 0))
+    known = take(seen.tracks, seen.passed & seen.tracks.confirmed & (seen.tracks.coasted == 0))
     places = places_of(setup.planes, known.planes, setup.sensor.dimensions)
     return within_limit(places.mean, scan.position, scan.coverage, resolution)
 
@@ -147,6 +147,7 @@ def new_tracks(
         confirmed=np.zeros(K, bool),
         hits=zero + starts.hits,
         misses=zero,
+        outside=zero,
         history=zero + ((1 << starts.hits) - 1),
         gate_size=np.full((K, d), np.nan),
         gate_volume=np.full(K, np.nan),

@@ -172,16 +172,22 @@ def existence_after(
     return existence, unseen / np.maximum(existence, TINY)
 
 
-def count_looks(tracks: Tracks, hit: Bools) -> Tracks:
-    """Return the tracks with this look in hits, misses and history."""
+def count_looks(tracks: Tracks, hit: Bools, inside: Bools) -> Tracks:
+    """
+    Return the tracks with this look in hits, misses and history.
+
+    A look at what is not `inside` (T,) the coverage says nothing of the track: it is only counted
+    in `outside`.
+    """
     return change(
         tracks,
         hits=tracks.hits + hit,
-        misses=np.where(hit, 0, tracks.misses + 1),
-        history=(tracks.history << 1 | hit) & _HISTORY,
+        misses=np.where(hit, 0, tracks.misses + inside),
+        outside=np.where(hit, 0, tracks.outside + ~inside),
+        history=np.where(inside, (tracks.history << 1 | hit) & _HISTORY, tracks.history),
     )
 
 
 def has_left(tracks: Tracks, inside: Bools, looks: int) -> Bools:
-    """Return which tracks (T,) are outside the coverage and were not seen for so many looks."""
-    return np.asarray(~inside & (tracks.misses >= looks))
+    """Return which tracks (T,) are outside the coverage, after so many looks there."""
+    return np.asarray(~inside & (tracks.outside >= looks))
