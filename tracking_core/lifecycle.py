@@ -11,7 +11,7 @@ import numpy as np
 
 from tracking_core.batches import Bools, Floats, Mixture, Tracks
 from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
-from tracking_core.detection import ones
+from tracking_core.detection import lengths, ones
 from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
 from tracking_core.rows import change
 
@@ -78,7 +78,11 @@ class Existence:
 
 @dataclass(frozen=True)
 class MOfN:
-    """Confirmed by M plots in N looks; deleted when that can no longer come, or after misses."""
+    """
+    Confirmed by M plots in the first N looks, or deleted as soon as these can no longer come.
+
+    Once confirmed, a track is deleted after misses in a row.
+    """
 
     config: MOfNConfig
     counts: ClassVar[bool] = True
@@ -133,8 +137,10 @@ LIFECYCLES = {'existence': Existence, 'm_of_n': MOfN, 'error_ratio': ErrorRatio}
 
 def _count(tracks: Tracks, config: MOfNConfig | ErrorRatioConfig) -> tuple[Bools, Bools]:
     window = np.int64((1 << config.looks) - 1)
-    confirmed = tracks.confirmed | (ones(tracks.history & window) >= config.hits)
-    hopeless = tracks.misses > config.looks - config.hits
+    plots = ones(tracks.history & window)
+    misses = np.minimum(lengths(tracks.history), config.looks) - plots
+    confirmed = tracks.confirmed | (plots >= config.hits)
+    hopeless = misses > config.looks - config.hits
     lost = tracks.misses >= config.drop_misses
     return confirmed, np.where(confirmed, lost, hopeless)
 

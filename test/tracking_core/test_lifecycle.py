@@ -123,6 +123,18 @@ def test_m_of_n_gives_up_hopeless_and_lost_tracks() -> None:
     assert_array_equal(gone, [True, False, True, False, False])
 
 
+@pytest.mark.parametrize('looks', [1, 2, 3, 5, 60])
+def test_m_of_n_decides_after_n_looks(looks: int) -> None:
+    """However few and far between the plots are: confirmed by M, or given up without them."""
+    every = ['x' + 29 * period for period in ('..', '.x.', '..x', '.....x', '...xxxxx', 'x')]
+    rows = [(row + 99 * 'x')[:looks] for row in every]
+    for hits in range(1, looks + 1):
+        tracks, gone = after_looks(MOfN(MOfNConfig(hits=hits, looks=looks, drop_misses=60)), *rows)
+        enough = np.array([row.count('x') >= hits for row in rows])
+        assert_array_equal(gone, ~enough)
+        assert_array_equal(tracks.confirmed, enough)
+
+
 def test_leniency_is_for_tentative_tracks() -> None:
     """In dense clutter they may be ten times less likely; one that was confirmed may not."""
     lifecycle, existence = Existence(ExistenceConfig(drop=0.02)), np.array([0.015, 0.015, 0.0015])
