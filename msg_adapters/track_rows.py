@@ -40,11 +40,11 @@ def common_columns(rows: Tracks, deleted: Bools, stamp: float, gate_probability:
     return {
         'id': rows.id.astype(np.uint32),
         'status': np.where(deleted, DELETED, status).astype(np.uint8),
-        'coasted': (rows.misses > 0).astype(np.uint8),
+        'coasted': (rows.coasted > 0).astype(np.uint8),
         'time': (rows.time - stamp).astype(single),
         'age': (rows.time - rows.birth_time).astype(single),
         'hits': rows.hits.astype(np.uint32),
-        'misses': rows.misses.astype(np.uint32),
+        'misses': rows.coasted.astype(np.uint32),
         'existence_probability': rows.existence_probability.astype(single),
         'nis': rows.nis.astype(single),
         'gate_threshold': np.full(len(rows), chi_square_bound(gate_probability, size), single),

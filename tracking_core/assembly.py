@@ -94,7 +94,7 @@ def assemble(
         associate=ASSOCIATORS[config.association],
         is_soft=config.association not in DECIDING,
         lifecycle=lifecycle,
-        initiation=initiation if lifecycle.follows_faint else replace(initiation, faint_starts=0),
+        initiation=replace(initiation, faint_starts=0) if lifecycle.counts else initiation,
         gate_probability=config.gate.probability,
         clutter_density=config.clutter_density,
         arrival_rate=config.existence.new_contacts / _SECONDS_PER_HOUR,

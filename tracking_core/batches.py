@@ -198,8 +198,9 @@ class Tracks:
     existence_probability: Floats  # (T,)
     confirmed: Bools  # (T,)
     hits: Ints  # (T,) looks with a plot
-    misses: Ints  # (T,) looks in a row without one
-    history: Ints  # (T,) the last looks as bits, newest lowest, 1 = plot
+    misses: Ints  # (T,) looks without one since the last one
+    outside: Ints  # (T,) looks outside the coverage since the last plot, which are no misses
+    history: Ints  # (T,) the last looks as bits, newest lowest, 1 = plot; none from outside
     gate_size: Floats  # (T, d) half size of the 3-sigma gate of the last look
     gate_volume: Floats  # (T,) of the chi-square gate of the last look
     nis: Floats  # (T,) normalised innovation squared of the last look, NaN: none
@@ -208,6 +209,11 @@ class Tracks:
 
     def __len__(self) -> int:
         return len(self.id)
+
+    @property
+    def coasted(self) -> Ints:
+        """Looks in a row without a plot (T,), whether or not the sensor could see there."""
+        return self.misses + self.outside
 
 
 @dataclass(frozen=True)

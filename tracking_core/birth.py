@@ -10,6 +10,7 @@ import numpy as np
 
 from tracking_core.association.clusters import renumber
 from tracking_core.batches import Bools, Coverage, Floats, Scan, Seeds, Tracks
+from tracking_core.chances import MORE_LIKELY_THAN_NOT
 from tracking_core.composition import Setup
 from tracking_core.density import Density
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
@@ -20,7 +21,6 @@ from tracking_core.unresolved.resolution import Resolution, within_limit
 from tracking_core.unresolved.sets import places_of
 from tracking_core.update import Look
 
-_CLAIMED = 0.5  # a plot more likely than this from a known contact starts no other track
 _SURE = 1.0 - 1e-9  # no start is surer: the others of a plot may still be the right one
 
 
@@ -28,7 +28,7 @@ _SURE = 1.0 - 1e-9  # no start is surer: the others of a plot may still be the r
 class Born:
     """What a scan of M plots gave birth to."""
 
-    tracks: Tracks  # tentative, the likeliest first
+    tracks: Tracks  # the likeliest first
     seeds: Seeds  # plots that may start a track with a later one
     used: Floats  # (M,) chance of each plot that a new track explains it
     leniency: float  # tentative tracks may be so much less likely than usual
@@ -54,7 +54,8 @@ def start_tracks(
         Of the tracker.
 
     """
-    free = ~seen.waiting & (seen.claimed < _CLAIMED) & np.isfinite(scan.position).all(axis=1)
+    unclaimed = seen.claimed < MORE_LIKELY_THAN_NOT
+    free = ~seen.waiting & unclaimed & np.isfinite(scan.position).all(axis=1)
     if setup.resolution is not None:
         free &= ~_hidden(scan, seen, setup, setup.resolution)
     plots = Seeds(
@@ -79,6 +80,9 @@ def start_tracks(
     left = change(fresh, free=fresh.free * (1.0 - used[free]))
     if len(starts.plot):
         born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)
+        if setup.lifecycle.counts:
+            existence = born.existence_probability
+            born = change(born, confirmed=setup.lifecycle.judge(born, existence)[0])
     else:
         born = take(seen.tracks, slice(0))
     return Born(born, concatenate(young, left), used, starts.leniency)
@@ -86,7 +90,7 @@ def start_tracks(
 
 def _hidden(scan: Scan, seen: Look, setup: Setup, resolution: Resolution) -> Bools:
     """Return which plots (M,) a contact near a known one, which has its own plot, cannot make."""
-    known = take(seen.tracks, seen.passed & seen.tracks.confirmed & (seen.tracks.misses == 0))
+    known = take(seen.tracks, seen.passed & seen.tracks.confirmed & (seen.tracks.coasted == 0))
     places = places_of(setup.planes, known.planes, setup.sensor.dimensions)
     return within_limit(places.mean, scan.position, scan.coverage, resolution)
 
@@ -143,6 +147,7 @@ def new_tracks(
         confirmed=np.zeros(K, bool),
         hits=zero + starts.hits,
         misses=zero,
+        outside=zero,
         history=zero + ((1 << starts.hits) - 1),
         gate_size=np.full((K, d), np.nan),
         gate_volume=np.full(K, np.nan),

@@ -67,7 +67,7 @@ class Setup:
     merge: MergeConfig
     max_tracks: int
     longest_pause: float  # a track that nobody looked at for longer ends [s]; 0: none does
-    looks_outside: int = 5  # the coverage and without a plot, after which a track has left
+    looks_outside: int = 5  # the coverage since its last plot, after which a track has left
     resolution: Resolution | None = None  # None: every contact gives its own plot
     extent: Extent = ONE_PLOT  # every contact gives one plot
 

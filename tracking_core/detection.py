@@ -31,10 +31,16 @@ def detection_probability(tracks: Tracks, usual: Floats, strange: Floats) -> Flo
     """
     hits = ones(tracks.history)
     is_full = tracks.hits > hits  # the first looks are forgotten
-    looks = np.where(is_full, _REMEMBERED, np.frexp(tracks.history.astype(np.float64))[1])
+    looks = np.where(is_full, _REMEMBERED, lengths(tracks.history))
     trust = _STRANGE / (_STRANGE + strange)
     own = (_WEIGHT * usual + trust * hits + _CHANCE) / (_WEIGHT + trust * looks)
     return np.asarray(np.minimum(np.maximum(own, _LEAST * usual), usual))
+
+
+def lengths(bits: Ints) -> Ints:
+    """Return the number of bits of each (T,) from the first that is set."""
+    # A bit below a set one is left out: 60 of them would be rounded up to the length 61.
+    return np.asarray(np.frexp((bits & ~(bits >> 1)).astype(np.float64))[1], np.int64)
 
 
 def ones(bits: Ints) -> Ints:

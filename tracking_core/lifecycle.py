@@ -11,7 +11,7 @@ import numpy as np
 
 from tracking_core.batches import Bools, Floats, Mixture, Tracks
 from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
-from tracking_core.detection import ones
+from tracking_core.detection import lengths, ones
 from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
 from tracking_core.rows import change
 
@@ -21,7 +21,7 @@ _HISTORY = (1 << 60) - 1  # looks remembered as bits
 class Lifecycle(Protocol):
     """What a tracker asks about the life of its tracks."""
 
-    follows_faint: ClassVar[bool]  # plots are weighed against clutter, so a faint track is no risk
+    counts: ClassVar[bool]  # looks with plots; how likely these are clutter is not weighed
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
@@ -57,7 +57,7 @@ class Existence:
     """
 
     config: ExistenceConfig
-    follows_faint: ClassVar[bool] = True
+    counts: ClassVar[bool] = False
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return the existence probability (T,) at the next look, dt (T,) [s] later."""
@@ -78,10 +78,14 @@ class Existence:
 
 @dataclass(frozen=True)
 class MOfN:
-    """Confirmed by M plots in N looks; deleted when that can no longer come, or after misses."""
+    """
+    Confirmed by M plots in the first N looks, or deleted as soon as these can no longer come.
+
+    Once confirmed, a track is deleted after misses in a row.
+    """
 
     config: MOfNConfig
-    follows_faint: ClassVar[bool] = False
+    counts: ClassVar[bool] = True
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return 1 (T,): counting knows no doubt."""
@@ -110,7 +114,7 @@ class ErrorRatio:
     """
 
     config: ErrorRatioConfig
-    follows_faint: ClassVar[bool] = False
+    counts: ClassVar[bool] = True
 
     def prior(self, tracks: Tracks, dt: Floats) -> Floats:
         """Return 1 (T,): counting knows no doubt."""
@@ -133,8 +137,10 @@ LIFECYCLES = {'existence': Existence, 'm_of_n': MOfN, 'error_ratio': ErrorRatio}
 
 def _count(tracks: Tracks, config: MOfNConfig | ErrorRatioConfig) -> tuple[Bools, Bools]:
     window = np.int64((1 << config.looks) - 1)
-    confirmed = tracks.confirmed | (ones(tracks.history & window) >= config.hits)
-    hopeless = tracks.misses > config.looks - config.hits
+    plots = ones(tracks.history & window)
+    misses = np.minimum(lengths(tracks.history), config.looks) - plots
+    confirmed = tracks.confirmed | (plots >= config.hits)
+    hopeless = misses > config.looks - config.hits
     lost = tracks.misses >= config.drop_misses
     return confirmed, np.where(confirmed, lost, hopeless)
 
@@ -172,16 +178,22 @@ def existence_after(
     return existence, unseen / np.maximum(existence, TINY)
 
 
-def count_looks(tracks: Tracks, hit: Bools) -> Tracks:
-    """Return the tracks with this look in hits, misses and history."""
+def count_looks(tracks: Tracks, hit: Bools, inside: Bools) -> Tracks:
+    """
+    Return the tracks with this look in hits, misses and history.
+
+    A look at what is not `inside` (T,) the coverage says nothing of the track: it is only counted
+    in `outside`.
+    """
     return change(
         tracks,
         hits=tracks.hits + hit,
-        misses=np.where(hit, 0, tracks.misses + 1),
-        history=(tracks.history << 1 | hit) & _HISTORY,
+        misses=np.where(hit, 0, tracks.misses + inside),
+        outside=np.where(hit, 0, tracks.outside + ~inside),
+        history=np.where(inside, (tracks.history << 1 | hit) & _HISTORY, tracks.history),
     )
 
 
 def has_left(tracks: Tracks, inside: Bools, looks: int) -> Bools:
-    """Return which tracks (T,) are outside the coverage and were not seen for so many looks."""
-    return np.asarray(~inside & (tracks.misses >= looks))
+    """Return which tracks (T,) are outside the coverage, after so many looks there."""
+    return np.asarray(~inside & (tracks.outside >= looks))

@@ -48,10 +48,13 @@ class ExistenceConfig:
 
 @dataclass(frozen=True)
 class MOfNConfig:
-    """When a track is believed: plots counted in its last looks."""
+    """When a track is believed: plots counted in its looks."""
 
     hits: int = parameter(3, unit='1', doc='plots that confirm a track', low=1, high=60, live=True)
-    looks: int = parameter(5, unit='1', doc='... within so many looks', low=1, high=60, live=True)
+    looks: int = parameter(
+        5, unit='1', doc='... within so many looks from its start, or it is deleted', low=1,
+        high=60, live=True,
+    )  # fmt: skip
     drop_misses: int = parameter(
         5, unit='1', doc='a confirmed track is deleted after so many misses in a row', low=1,
         high=60, live=True,
@@ -108,7 +111,10 @@ class ErrorRatioConfig:
     )  # fmt: skip
     hits: int = parameter(4, unit='1', doc='looks that sharpen it confirm a track', low=1, high=60,
                           live=True)  # fmt: skip
-    looks: int = parameter(6, unit='1', doc='... within so many looks', low=1, high=60, live=True)
+    looks: int = parameter(
+        6, unit='1', doc='... within so many looks from its start, or it is deleted', low=1,
+        high=60, live=True,
+    )  # fmt: skip
     drop_misses: int = parameter(
         5, unit='1', doc='a confirmed track is deleted after so many looks in a row that gave '
         'nothing', low=1, high=60, live=True,

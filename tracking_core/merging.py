@@ -87,7 +87,12 @@ def duplicates(tracks: Tracks, distance: float, space: Space = POINTS) -> Bools:
 def _distance_squared(
     mean: Floats, P: Floats, first: Ints, second: Ints, dt: Floats, space: Space, part: slice
 ) -> Floats:
-    """Return the squared distance of this part of track pairs, at the time of the later one."""
+    """
+    Return the squared distance of this part of track pairs, at the time of the second.
+
+    Covariances are not moved: doubles wait for each other (`update._due`), so their looks are at
+    almost the same time, also where the antenna passes from one turn to the next.
+    """
     delta = take_rows(mean, second) - take_rows(mean, first)
     delta[:, 0::2] -= take_rows(mean[:, 1::2], first) * dt[:, None]
     delta, P = space.shortest(delta)[:, part], P[:, part, part]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tracking_core.batches import Ints, Scan, Seeds, Tracks
+from tracking_core.batches import Floats, Ints, Scan, Seeds, Tracks
 from tracking_core.clutter import Clutter
 
 
@@ -41,4 +41,5 @@ class State:
     next_id: int = 1
     leniency: float = 1.0  # tentative tracks may be so much less likely than usual
     time: float = -np.inf  # end of the last scan [s]
+    steps: Floats = field(default_factory=lambda: np.zeros(0))  # (N,) of the last scans [s]
     report: StepReport = field(default_factory=StepReport)

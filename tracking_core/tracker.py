@@ -21,6 +21,7 @@ from tracking_core.composition import Setup
 from tracking_core.density import Density, expected_density
 from tracking_core.heap import keep_freed_memory
 from tracking_core.initiation import one_point, Starts
+from tracking_core.interval import add_step, interval_of_looks
 from tracking_core.learning import learn_clutter
 from tracking_core.linalg import TURN
 from tracking_core.merging import end_doubles
@@ -81,7 +82,8 @@ class Tracker:
 
         """
         state, silent = self._without_silent(scan)
-        interval = _interval(scan, state)
+        steps = add_step(state.steps, scan.coverage, state.time)
+        interval = interval_of_looks(steps, scan.coverage)
         scan = self.setup.extent.gather(state.held, scan, interval, self.setup.sensor.space)
         density = self._density(state, scan, interval)
         seen = self._look(state.tracks, scan, density)
@@ -113,6 +115,7 @@ class Tracker:
             clutter=learn_clutter(state, scan, seen, born.used, kept, self.setup),
             leniency=born.leniency,
             time=max(scan.coverage.end_time, state.time),
+            steps=steps,
             report=report,
         )
         return self.state.tracks
@@ -182,12 +185,3 @@ class Tracker:
             state.clutter, setup.clutter_density, setup.arrival_rate * interval, scan,
             setup.sensor, state.leniency,
         )  # fmt: skip
-
-
-def _interval(scan: Scan, state: State) -> float:
-    """Return the time between two looks at the same place [s]."""
-    rate = abs(scan.coverage.rotation_rate)
-    if rate:
-        return TURN / rate
-    since = scan.coverage.end_time - state.time
-    return since if 0.0 < since < np.inf else 1.0

@@ -153,10 +153,11 @@ def _update(
         )
     )
     found = share.found
+    inside = predicted.detection > 0.0
     hit = setup.lifecycle.hits(found, predicted.planes[0], planes[0])
     weighted = sum_by_track(share.association.probability * gated.distance, track, T)
     tracks = change(
-        count_looks(predicted.tracks, hit),
+        count_looks(predicted.tracks, hit, inside),
         planes=planes,
         existence_probability=share.existence_probability,
         gate_size=predicted.gates.three_sigma,
@@ -165,7 +166,7 @@ def _update(
         nis=np.where(found > 0.5, weighted / np.maximum(found, 0.5), np.nan),
     )
     confirmed, ended = setup.lifecycle.judge(tracks, share.existence_probability, leniency)
-    ended |= has_left(tracks, predicted.detection > 0.0, setup.looks_outside)
+    ended |= has_left(tracks, inside, setup.looks_outside)
     sound = [is_positive_definite(mixture.covariance).all(axis=1) for mixture in planes]
     return change(tracks, confirmed=confirmed), ended, ~np.logical_and.reduce(sound)
 

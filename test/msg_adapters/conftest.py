@@ -34,6 +34,7 @@ def make_tracks():
             confirmed=np.arange(rows) % 2 == 0,
             hits=np.arange(rows) + 3,
             misses=np.arange(rows) % 2,
+            outside=np.zeros(rows, np.int64),
             history=np.ones(rows, np.int64),
             gate_size=np.full((rows, dimensions), 50.0),
             gate_volume=np.full(rows, 1e5),

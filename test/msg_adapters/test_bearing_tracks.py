@@ -45,9 +45,9 @@ def tracks_of(*ids):
     return Tracks(
         id=np.array(ids, np.int64), time=np.full(T, 99.5), birth_time=np.full(T, 90.0),
         planes=(plane,), existence_probability=np.ones(T), confirmed=np.ones(T, bool),
-        hits=np.full(T, 5), misses=np.zeros(T, np.int64), history=np.ones(T, np.int64),
-        gate_size=np.full((T, 1), 0.05), gate_volume=np.full(T, 0.1), nis=np.full(T, np.nan),
-        doubled=np.zeros(T, np.int64), level=np.full(T, np.nan),
+        hits=np.full(T, 5), misses=np.zeros(T, np.int64), outside=np.zeros(T, np.int64),
+        history=np.ones(T, np.int64), gate_size=np.full((T, 1), 0.05), gate_volume=np.full(T, 0.1),
+        nis=np.full(T, np.nan), doubled=np.zeros(T, np.int64), level=np.full(T, np.nan),
     )  # fmt: skip
 
 

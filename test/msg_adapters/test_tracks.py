@@ -55,6 +55,14 @@ def test_rows_say_what_the_tracks_say(types, make_tracks):
     np.testing.assert_allclose(columns['gate_threshold'], chi2.ppf(0.99, 3), rtol=1e-6)
 
 
+def test_track_outside_the_coverage_coasts(types, make_tracks):
+    """What nobody can see has no plot; its looks are counted with the misses before them."""
+    tracks = replace(make_tracks([3, 7]), misses=np.array([0, 1]), outside=np.array([2, 2]))
+    columns = rows_of(tracks, tracks, types)
+    np.testing.assert_array_equal(columns['coasted'], [1, 1])
+    np.testing.assert_array_equal(columns['misses'], [2, 3])
+
+
 def test_covariance_is_ordered_x_y_z_vx_vy_vz(make_tracks):
     """Each element stands where row-major order of the six says."""
     tracks = make_tracks([1])

@@ -12,6 +12,7 @@ from sonar_tracker.sensor_config import SensorConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings, Coverage
 from tracking_core.config import with_values
+from tracking_core.detection import detection_probability
 from tracking_core.platform import Platform
 
 RATE = 0.05  # rad/s, to port
@@ -177,3 +178,28 @@ def test_contact_keeps_its_id_through_the_blind_sector() -> None:
         ids.append(tracks.id[tracks.confirmed].tolist())
     assert len(ids[29]) == 1
     assert ids[-1] == ids[29]
+
+
+@pytest.mark.parametrize('lifecycle', ['existence', 'm_of_n', 'error_ratio'])
+def test_blind_looks_are_no_misses(lifecycle: str) -> None:
+    """Of fifteen looks in the blind sector only the last one changes anything: the track ends."""
+    values = {'lifecycle': lifecycle, 'sensor.sector_width': 4.0, 'sensor.bearing_sd': 0.01}
+    sonar = SonarTracker(with_values(SonarTrackerConfig(), values))
+    time = 10.0 * np.arange(36)
+    yaw = np.where(time < 200.0, 0.0, np.pi)
+    nothing = np.zeros((len(time), 3))
+    turn = np.stack([0.0 * yaw, 0.0 * yaw, np.sin(0.5 * yaw), np.cos(0.5 * yaw)], axis=1)
+    ship = Platform(time, nothing, turn, nothing, np.zeros((36, 3, 3)), np.zeros(36))
+    alive = []
+    for now, heading in zip(time, yaw, strict=True):
+        heard = np.zeros(int(not heading))
+        tracks = sonar.track(Bearings.of(heard + now, heard, stamp=now), ship)
+        alive.append(len(tracks))
+        if alive[-1]:
+            last = tracks
+    assert alive[20:] == 14 * [1] + 2 * [0]
+    np.testing.assert_array_equal(
+        [last.hits, last.misses, last.outside, last.coasted], [[20], [0], [14], [14]]
+    )
+    usual = np.array([0.9])
+    np.testing.assert_array_equal(detection_probability(last, usual, np.zeros(1)), usual)

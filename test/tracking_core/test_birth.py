@@ -146,3 +146,22 @@ def test_counted_plots_begin_with_the_two_of_the_start(hits: int) -> None:
     count = {'lifecycle': 'm_of_n', 'm_of_n__hits': hits}
     assert after([[HERE]] * (hits - 1), **count).tracks.confirmed.tolist() == [False]
     assert after([[HERE]] * hits, **count).tracks.confirmed.tolist() == [True]
+
+
+@pytest.mark.parametrize('looks', [2, 5])
+@pytest.mark.parametrize(
+    ('method', 'hits'), [('one_point', 1), ('two_point', 1), ('two_point', 2)]
+)
+def test_counted_plots_of_a_start_may_be_enough(method: str, hits: int, looks: int) -> None:
+    """A contact is confirmed with its plot M of N, also if that is the one that starts a track."""
+    count = {'lifecycle': 'm_of_n', 'm_of_n__hits': hits, 'm_of_n__looks': looks}
+    found = [[HERE]] * (1 if method == 'one_point' else 2)
+    assert after(found, initiation__method=method, **count).tracks.confirmed.tolist() == [True]
+    assert len(after([*found, []], initiation__method=method, **count).tracks) == 1
+
+
+def test_existence_of_a_start_confirms_nothing() -> None:
+    """However likely two plots are, a third one decides."""
+    tracks = after([[HERE], [HERE]], existence__confirm=0.9).tracks
+    assert tracks.existence_probability[0] > 0.99
+    assert not tracks.confirmed[0]

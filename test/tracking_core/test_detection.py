@@ -14,7 +14,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Plots
 from tracking_core.config import with_values
-from tracking_core.detection import detection_probability, ones
+from tracking_core.detection import detection_probability, lengths, ones
 
 USUAL, INTERVAL, SD = 0.9, 4.0, 50.0  # [1], [s], [m]
 SITE = {
@@ -75,3 +75,9 @@ def test_looks_count_little_among_strange_plots() -> None:
 def test_ones_counts_set_bits(bits: int) -> None:
     """One by one, whichever row of the memory they are in."""
     assert_array_equal(ones(np.array([bits, 1, bits])), [bits.bit_count(), 1, bits.bit_count()])
+
+
+@pytest.mark.parametrize('bits', [0, 1, 0b1011, (1 << 54) - 1, (1 << 60) - 1, 1 << 59])
+def test_lengths_counts_from_the_first_set_bit(bits: int) -> None:
+    """Also where a number has more bits than a float."""
+    assert_array_equal(lengths(np.array([bits, 1])), [bits.bit_length(), 1])

@@ -35,6 +35,7 @@ def make_tracks(count: int) -> Tracks:
         confirmed=np.zeros(count, bool),
         hits=none,
         misses=none,
+        outside=none,
         history=none,
         gate_size=np.zeros((count, 2)),
         gate_volume=zero,
@@ -49,7 +50,7 @@ def after_looks(lifecycle, *looks: str) -> Tracks:
     tracks = make_tracks(len(looks))
     gone = np.zeros(len(looks), bool)
     for column in zip(*looks, strict=True):
-        tracks = count_looks(tracks, np.array(column) == 'x')
+        tracks = count_looks(tracks, np.array(column) == 'x', np.ones(len(looks), bool))
         confirmed, ended = lifecycle.judge(tracks, tracks.existence_probability)
         tracks = replace(tracks, confirmed=confirmed & ~gone)
         gone |= ended
@@ -122,6 +123,18 @@ def test_m_of_n_gives_up_hopeless_and_lost_tracks() -> None:
     assert_array_equal(gone, [True, False, True, False, False])
 
 
+@pytest.mark.parametrize('looks', [1, 2, 3, 5, 60])
+def test_m_of_n_decides_after_n_looks(looks: int) -> None:
+    """However few and far between the plots are: confirmed by M, or given up without them."""
+    every = ['x' + 29 * period for period in ('..', '.x.', '..x', '.....x', '...xxxxx', 'x')]
+    rows = [(row + 99 * 'x')[:looks] for row in every]
+    for hits in range(1, looks + 1):
+        tracks, gone = after_looks(MOfN(MOfNConfig(hits=hits, looks=looks, drop_misses=60)), *rows)
+        enough = np.array([row.count('x') >= hits for row in rows])
+        assert_array_equal(gone, ~enough)
+        assert_array_equal(tracks.confirmed, enough)
+
+
 def test_leniency_is_for_tentative_tracks() -> None:
     """In dense clutter they may be ten times less likely; one that was confirmed may not."""
     lifecycle, existence = Existence(ExistenceConfig(drop=0.02)), np.array([0.015, 0.015, 0.0015])
@@ -141,17 +154,30 @@ def test_count_looks_remembers_sixty_looks() -> None:
     """Hits and misses in a row are counted; the history neither overflows nor turns negative."""
     tracks = make_tracks(2)
     for _ in range(100):
-        tracks = count_looks(tracks, np.array([True, False]))
+        tracks = count_looks(tracks, np.array([True, False]), np.ones(2, bool))
     assert_array_equal(tracks.hits, [100, 0])
     assert_array_equal(tracks.misses, [0, 100])
     assert_array_equal(tracks.history, [2**60 - 1, 0])
-    tracks = count_looks(tracks, np.array([False, True]))
+    tracks = count_looks(tracks, np.array([False, True]), np.ones(2, bool))
     assert_array_equal(tracks.misses, [1, 0])
 
 
-def test_has_left_waits_for_some_misses() -> None:
-    """A track outside the coverage goes once it was not seen for so many looks."""
-    tracks = replace(make_tracks(4), misses=np.array([4, 5, 5, 0]))
+def test_looks_outside_are_no_misses() -> None:
+    """They are counted apart, since the last plot; what the looks inside have told stays."""
+    tracks = replace(make_tracks(2), history=np.array([0b110, 0b110]), misses=np.array([1, 1]))
+    for _ in range(3):
+        tracks = count_looks(tracks, np.zeros(2, bool), np.zeros(2, bool))
+    tracks = count_looks(tracks, np.array([True, False]), np.ones(2, bool))
+    assert_array_equal(tracks.hits, [1, 0])
+    assert_array_equal(tracks.misses, [0, 2])
+    assert_array_equal(tracks.outside, [0, 3])
+    assert_array_equal(tracks.coasted, [0, 5])
+    assert_array_equal(tracks.history, [0b1101, 0b1100])
+
+
+def test_has_left_waits_for_some_looks_outside() -> None:
+    """A track goes when it is outside the coverage and was so for so many looks."""
+    tracks = replace(make_tracks(4), outside=np.array([4, 5, 5, 0]))
     outside = np.array([True, True, False, True])
     assert_array_equal(has_left(tracks, ~outside, 5), [False, True, False, False])
 

@@ -35,6 +35,7 @@ def make_tracks(state, sd=20.0, time=0.0, confirmed=False, hits=5) -> Tracks:
         confirmed=np.broadcast_to(confirmed, T).copy(),
         hits=np.broadcast_to(np.asarray(hits), T).copy(),
         misses=np.zeros(T, np.int64),
+        outside=np.zeros(T, np.int64),
         history=np.zeros(T, np.int64),
         gate_size=np.zeros((T, 2)),
         gate_volume=zero,

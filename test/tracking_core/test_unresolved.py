@@ -136,8 +136,8 @@ def tracks_at(*bearings, level=(20.0, 20.0), sd=4e-3) -> Tracks:
         id=np.arange(T), time=zero, birth_time=zero,
         planes=(Mixture(mean, P, np.ones((T, 1)), np.zeros((T, 0))),),
         existence_probability=np.ones(T), confirmed=one > 0, hits=10 * one, misses=0 * one,
-        history=one, gate_size=np.zeros((T, 1)), gate_volume=zero, nis=zero, doubled=0 * one,
-        level=np.array(level),
+        outside=0 * one, history=one, gate_size=np.zeros((T, 1)), gate_volume=zero, nis=zero,
+        doubled=0 * one, level=np.array(level),
     )  # fmt: skip
 
 
