@@ -26,6 +26,7 @@ from tracking_session.instrument import Instrument
 # kilobyte a track, and all that are newer than a late one are followed once more.
 MOST, FEWEST = 512, 64
 TRACKS = 200_000  # in all messages together, beyond the fewest
+PLOTS = 5  # are kept in as much memory as one track
 _PATH = 2.0  # s of own ship beyond a turn and a half: whatever a message needs
 
 
@@ -146,7 +147,8 @@ class History:
             self._floor = step.stamp - self._margin
         self._steps += (step,)
         self._oldest = step.stamp - self._scans * turn_time
-        most = max(FEWEST, min(MOST, TRACKS // (1 + len(step.known.tracks))))
+        tracks = len(step.known.tracks) + len(step.plots) // PLOTS
+        most = max(FEWEST, min(MOST, TRACKS // (1 + tracks)))
         while len(self._steps) > self._scans:
             first, is_full = self._steps[0].stamp, len(self._steps) > most
             if self._scans and turn_time and first >= self._oldest and not is_full:

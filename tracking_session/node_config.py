@@ -34,7 +34,7 @@ class LateConfig:
     late: int = parameter(
         3, unit='scans', low=0, high=20,
         doc='messages up to so many scans late are used at their own time, as far as the last 512 '
-        'messages go (64 with thousands of tracks); 0: none is',
+        'messages go (64 with thousands of tracks, or of plots in a message); 0: none is',
     )  # fmt: skip
 
     def __post_init__(self) -> None:

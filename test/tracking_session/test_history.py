@@ -31,16 +31,27 @@ def instrument(turn=0.0, tracks=10):
     return SimpleNamespace(tracker=tracker, track=lambda plots, platform, frame: None)
 
 
-def at(stamp):
+@dataclass
+class Rows:
+    """Plots, as far as a history asks."""
+
+    stamp: float
+    count: int
+
+    def __len__(self) -> int:
+        return self.count
+
+
+def at(stamp, plots=20):
     """Return plots of this stamp."""
-    return SimpleNamespace(stamp=stamp)
+    return Rows(stamp, plots)
 
 
-def filled(stamps, scans=3, turn=0.0, margin=10.0, tracks=10):
+def filled(stamps, scans=3, turn=0.0, margin=10.0, tracks=10, plots=20):
     """Return a history of messages with these stamps."""
     history = History(instrument(turn, tracks), scans, margin)
     for stamp in stamps:
-        history.step(at(stamp), None, None)
+        history.step(at(stamp, plots), None, None)
     return history
 
 
@@ -76,10 +87,19 @@ def test_narrow_sectors_have_a_place_for_three_turns(sectors, tracks):
     assert not history.lacks_room(1.0)
 
 
-@pytest.mark.parametrize(('tracks', 'most'), [(10, MOST), (1000, 199), (100_000, FEWEST)])
-def test_memory_is_bounded(tracks, most):
-    """However small the sectors are, and the fewer the more tracks; who comes later is told so."""
-    history = filled([1e-3 * k for k in range(1000)], turn=4.0, tracks=tracks)
+@pytest.mark.parametrize(
+    ('tracks', 'plots', 'most'),
+    [
+        (10, 20, MOST),
+        (1000, 4, 199),
+        (100_000, 20, FEWEST),
+        (10, 5_000, 197),
+        (10, 20_000, FEWEST),
+    ],
+)
+def test_memory_is_bounded(tracks, plots, most):
+    """However small the sectors are, and the fewer the more rows; who comes later is told so."""
+    history = filled([1e-3 * k for k in range(1000)], turn=4.0, tracks=tracks, plots=plots)
     assert history.span == pytest.approx(1e-3 * most)
     assert history.lacks_room(0.9995 - 1e-3 * most - 0.001)
     assert not history.lacks_room(0.9995)
