@@ -14,6 +14,7 @@ from tracking_core.chances import MORE_LIKELY_THAN_NOT
 from tracking_core.composition import Setup
 from tracking_core.density import Density
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
+from tracking_core.interval import interval_of_looks, time_of_looks
 from tracking_core.linalg import inverse, sum_by_track, symmetrise
 from tracking_core.rows import change, concatenate, take
 from tracking_core.state import State
@@ -35,7 +36,7 @@ class Born:
 
 
 def start_tracks(
-    scan: Scan, seen: Look, density: Density, interval: float, setup: Setup, state: State
+    scan: Scan, seen: Look, density: Density, steps: Floats, setup: Setup, state: State
 ) -> Born:
     """
     Start tracks from the plots that no track claims.
@@ -48,8 +49,8 @@ def start_tracks(
         What became of them.
     density : Density
         Of false plots and of new contacts.
-    interval : float
-        Between two looks [s].
+    steps : (N,) array
+        From scan to scan, this one included [s].
     setup, state
         Of the tracker.
 
@@ -67,7 +68,7 @@ def start_tracks(
         starts = one_point(fresh, density.existence(fresh.relief), setup.initiation)
     else:
         starts = two_point(
-            state.seeds, fresh, density, scan.coverage, interval,
+            state.seeds, fresh, density, scan.coverage, interval_of_looks(steps, scan.coverage),
             setup.sensor.detection_probability, setup.least_existence, setup.initiation,
             setup.sensor.space,
         )  # fmt: skip
@@ -75,8 +76,8 @@ def start_tracks(
         starts = one_a_plot(starts, len(fresh))
     used = np.zeros(len(scan))
     used[free] = np.bincount(starts.plot, starts.existence_probability, len(fresh)).clip(max=1.0)
-    age = scan.coverage.end_time - state.seeds.time
-    young = take(state.seeds, age <= (setup.initiation.memory - 1.0) * interval + 1e-9)
+    oldest = time_of_looks(int(setup.initiation.memory), steps, scan.coverage)
+    young = take(state.seeds, scan.coverage.end_time - state.seeds.time < oldest)
     left = change(fresh, free=fresh.free * (1.0 - used[free]))
     if len(starts.plot):
         born = new_tracks(starts, fresh.time, setup, state.next_id, scan.coverage)

@@ -11,6 +11,7 @@ import numpy as np
 from tracking_core.batches import Coverage, Floats, Ints, Seeds
 from tracking_core.density import Density
 from tracking_core.faint_starts import share_of_faint, worth_a_track
+from tracking_core.interval import time_of_turns
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.looks import longest_since
 from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_covariance
@@ -103,7 +104,7 @@ def two_point(
     most, least = MOST_NEW * seeds.free, least_existence / leniency
     seeds = take(seeds, most * alone >= least * (1.0 - most + most * alone))
 
-    old, new, step, dt = _within_reach(seeds, fresh, coverage, 0.5 * interval, config, space)
+    old, new, step, dt = _within_reach(seeds, fresh, coverage, interval, config, space)
     if len(old) == 0:
         return change(Starts.none(step.shape[1]), leniency=leniency)
     looks_between = np.maximum(np.rint(dt / interval) - 1.0, 0.0)
@@ -126,7 +127,7 @@ def two_point(
 
 
 def _within_reach(
-    seeds: Seeds, fresh: Seeds, coverage: Coverage, shortest: float, config: InitiationConfig,
+    seeds: Seeds, fresh: Seeds, coverage: Coverage, interval: float, config: InitiationConfig,
     space: Space,
 ) -> tuple[Ints, Ints, Floats, Floats]:  # fmt: skip
     """Return the rows (K,), (K,) of pairs, how far (K, d) they are apart and how long (K,) [s]."""
@@ -143,7 +144,8 @@ def _within_reach(
     noise = _NOISE_SIGMAS * np.sqrt(take_rows(variances[0], old) + take_rows(variances[1], new))
     slack = np.maximum(np.abs(step) - noise, 0.0)
     horizontal = slack[:, 0] if d == 1 else np.hypot(slack[:, 0], slack[:, 1])
-    fits = (horizontal <= config.speed_max * dt) & (dt > shortest)
+    fits = (horizontal <= config.speed_max * dt) & (dt > 0.5 * interval)
+    fits &= dt < time_of_turns(int(config.memory), coverage)
     for axis in range(2, d):
         fits &= slack[:, axis] <= config.climb_max * dt
     kept = fits.nonzero()[0]

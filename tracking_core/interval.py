@@ -14,27 +14,14 @@ import numpy as np
 from tracking_core.batches import Coverage, Floats
 from tracking_core.linalg import TURN
 
-_MOST = 9  # steps that tell what is usual: few, so that another cycle is soon the usual one
+_MOST = 11  # steps that tell what is usual: few, so that another cycle is soon the usual one
 _UNKNOWN = 1.0  # before there were two scans [s]
+_ROUNDING = 1e-3  # looks
 
 
-def add_step(steps: Floats, coverage: Coverage, last: float) -> Floats:
-    """
-    Return the last steps from scan to scan with this one, if it was one.
-
-    Parameters
-    ----------
-    steps : (N,) array
-        Of the scans before [s].
-    coverage : Coverage
-        Of this scan, which cannot have begun before the look was over that ended at `last`.
-    last : float
-        End of the last scan, -inf: there was none [s].
-
-    """
-    lasted, since = coverage.end_time - coverage.start_time, coverage.end_time - last
-    step = max(lasted, since if since < np.inf else 0.0)
-    return np.append(steps, step)[-_MOST:] if step > 0.0 else steps
+def add_step(steps: Floats, since: float) -> Floats:
+    """Return the last steps (N,) from scan to scan with this one, if it was one [s]."""
+    return np.append(steps, since)[-_MOST:] if 0.0 < since < np.inf else steps
 
 
 def interval_of_looks(steps: Floats, coverage: Coverage) -> float:
@@ -42,4 +29,28 @@ def interval_of_looks(steps: Floats, coverage: Coverage) -> float:
     rate = abs(coverage.rotation_rate)
     if rate:
         return TURN / rate
-    return float(np.sort(steps)[len(steps) // 2]) if len(steps) else _UNKNOWN
+    usual = float(np.sort(steps)[len(steps) // 2]) if len(steps) else 0.0
+    return max(usual, coverage.end_time - coverage.start_time) or _UNKNOWN
+
+
+def time_of_turns(number: int, coverage: Coverage) -> float:
+    """
+    Return how long after a plot those that follow in so many turns can be [s].
+
+    Half a turn more, for what moves and what waits for open gates; inf if nothing turns.
+    """
+    rate = abs(coverage.rotation_rate)
+    return (number + 0.5) * TURN / rate if rate else np.inf
+
+
+def time_of_looks(number: int, steps: Floats, coverage: Coverage) -> float:
+    """
+    Return how long ago plots of the last looks can be [s].
+
+    Without a rotation these looks are the last steps (N,), however long they were; if there were
+    fewer, all plots are of the last looks.
+    """
+    if coverage.rotation_rate:
+        return time_of_turns(number, coverage)
+    slack = _ROUNDING * interval_of_looks(steps, coverage)
+    return float(steps[-number:].sum()) - slack if len(steps) >= number else np.inf

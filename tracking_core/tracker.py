@@ -82,12 +82,12 @@ class Tracker:
 
         """
         state, silent = self._without_silent(scan)
-        steps = add_step(state.steps, scan.coverage, state.time)
+        steps = add_step(state.steps, scan.coverage.end_time - state.time)
         interval = interval_of_looks(steps, scan.coverage)
         scan = self.setup.extent.gather(state.held, scan, interval, self.setup.sensor.space)
         density = self._density(state, scan, interval)
         seen = self._look(state.tracks, scan, density)
-        born = start_tracks(scan, seen, density, interval, self.setup, state)
+        born = start_tracks(scan, seen, density, steps, self.setup, state)
 
         kept, merged = self._without_doubles(seen)
         room = max(self.setup.max_tracks - len(kept), 0)

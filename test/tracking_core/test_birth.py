@@ -12,7 +12,9 @@ import pytest
 
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.tracker import RadarTracker
-from tracking_core.batches import Plots
+from sonar_tracker.config import SonarTrackerConfig
+from sonar_tracker.tracker import SonarTracker
+from tracking_core.batches import Bearings, Plots
 from tracking_core.birth import one_a_plot
 from tracking_core.config import with_values
 from tracking_core.initiation import Starts
@@ -101,6 +103,42 @@ def test_plot_waits_for_a_second_one_as_long_as_its_memory(memory, gap, starts) 
     looks = [[HERE], *[[]] * (gap - 1), [HERE]]
     tracker = after(looks, initiation__memory=memory)
     assert len(tracker.tracks) == tracker.state.report.started == starts
+
+
+def turning(azimuth: float, turns: tuple[int, ...], sectors: int, memory: float) -> int:
+    """Return how many tracks a contact makes that has plots in these turns of eight."""
+    site = {'scan.assembly': 'sector' if sectors > 1 else 'message', 'scan.period': 4.0}
+    site |= {'initiation.memory': memory, 'clutter_density': 1e-9, 'sensor.range_max': 4e4}
+    tracker, others = RadarTracker(with_values(RadarTrackerConfig(), site)), 0.6 * np.arange(10)
+    for number in range(8 * sectors):
+        turn, begin = number // sectors, 2.0 * np.pi * (number % sectors) / sectors
+        seen = np.sort(np.append(others, azimuth) if turn in turns else others)
+        seen = seen[(seen >= begin) & (seen < begin + 2.0 * np.pi / sectors)]
+        place = np.where(seen == azimuth, 30e3, 8e3)
+        message = Plots.polar(4.0 * (turn + seen / (2.0 * np.pi)), place, seen)
+        tracks = tracker.track(replace(message, stamp=4.0 * number / sectors))
+        far = np.linalg.norm(tracks.planes[0].average[:, 0::2], axis=1) > 20e3
+        if far.any():
+            return int(far.sum())
+    return 0
+
+
+@pytest.mark.parametrize('azimuth', [0.2, 2.9, 6.1])
+@pytest.mark.parametrize('sectors', [1, 8])
+@pytest.mark.parametrize(('memory', 'gap'), [(1.0, 1), (1.5, 1), (2.5, 2), (3.5, 3)])
+def test_plot_waits_as_many_turns_wherever_it_is(azimuth, sectors, memory, gap) -> None:
+    """However a turn is cut: so many turns later a second plot starts a track, not one later."""
+    assert turning(azimuth, (3, 3 + gap), sectors, memory) == 1
+    assert turning(azimuth, (3, 4 + gap), sectors, memory) == 0
+
+
+def test_marks_of_a_cycle_wait_for_as_many_cycles() -> None:
+    """The first one of a cycle for two more, as the last one does."""
+    sonar = SonarTracker(with_values(SonarTrackerConfig(), {'clutter_density': 1e-3}))
+    for cycle, marks in enumerate(([(0.0, 0.3)], [], [(0.0, 0.3)])):
+        time, bearing = np.array([*marks, (9.5, 1.0 + 0.5 * cycle)]).T
+        sonar.track(Bearings.of(10.0 * cycle + time, bearing))
+    assert np.isclose(sonar.tracks.planes[0].average[:, 0], 0.3, atol=0.01).sum() == 1
 
 
 @pytest.mark.parametrize(('method', 'first'), [('one_point', 1), ('two_point', 0)])

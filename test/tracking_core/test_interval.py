@@ -11,7 +11,7 @@ from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.tracker import SonarTracker
 from tracking_core.batches import Bearings, Coverage
 from tracking_core.config import with_values
-from tracking_core.interval import add_step, interval_of_looks
+from tracking_core.interval import add_step, interval_of_looks, time_of_looks, time_of_turns
 
 CYCLE = 10.0  # [s]
 
@@ -19,8 +19,8 @@ CYCLE = 10.0  # [s]
 def usual(*scans: tuple[float, float]) -> float:
     """Return the interval after scans with a first and a last plot at these times."""
     steps, last = np.zeros(0), -np.inf
-    for first, end in scans:
-        steps = add_step(steps, Coverage(first, end), last)
+    for _, end in scans:
+        steps = add_step(steps, end - last)
         last = max(end, last)
     return interval_of_looks(steps, Coverage(*scans[-1]))
 
@@ -46,9 +46,9 @@ def test_interval_does_not_mind_odd_scans(odd: list[float]) -> None:
 
 
 def test_interval_follows_another_cycle() -> None:
-    """After five scans of it, whether it is longer or shorter."""
+    """After six scans of it, whether it is longer or shorter."""
     for cycle in (1.0, 45.0):
-        later = 100.0 + cycle * np.arange(1, 6)
+        later = 100.0 + cycle * np.arange(1, 7)
         assert usual(*cycles(*range(11)), *zip(later, later, strict=True)) == cycle
 
 
@@ -72,6 +72,20 @@ def test_interval_of_a_rotating_antenna_is_its_turn() -> None:
     assert interval_of_looks(np.array([1.0, 1.0]), quarter) == pytest.approx(4.0)
 
 
+def test_time_of_looks_is_that_of_the_last_steps_or_turns() -> None:
+    """However uneven the steps are; of fewer than asked for, all plots are."""
+    steps, still, half = (
+        np.array([9.0, 20.0, 3.0]),
+        Coverage(0.0, 0.0),
+        Coverage(0.0, 2.0, 0.0, np.pi),
+    )
+    assert time_of_looks(2, steps, still) == pytest.approx(23.0, rel=1e-3)
+    assert time_of_looks(2, steps, still) < 23.0
+    assert time_of_looks(4, steps, still) == np.inf
+    assert time_of_looks(2, steps, half) == pytest.approx(2.5 * 4.0)
+    assert time_of_turns(2, still) == np.inf
+
+
 @pytest.mark.parametrize(
     ('silent', 'other'), [(0, 0.0), (0, 0.5), (0, 9.5), (5, 0.5), (5, 5.0), (5, 9.5)]
 )
@@ -91,4 +105,4 @@ def test_steps_are_kept_and_few() -> None:
     sonar = SonarTracker(SonarTrackerConfig())
     for stamp in CYCLE * np.arange(40):
         sonar.track(Bearings.of(np.zeros(0), np.zeros(0), stamp=stamp))
-    assert sonar.state.steps.tolist() == 9 * [CYCLE]
+    assert sonar.state.steps.tolist() == 11 * [CYCLE]
