@@ -101,7 +101,8 @@ def _unfolding(low: Floats, high: Floats, one: Ints, other: Ints, interval: floa
     shift = np.zeros((len(one), low.shape[1]))
     if interval:
         middle = 0.5 * (low[:, -1] + high[:, -1])
-        shift[:, -1] = interval * np.rint((middle[one] - middle[other]) / interval)
+        turns = np.rint((middle[one] - middle[other]) / interval)
+        shift[:, -1] = interval * np.nan_to_num(turns)  # where one is not measured, none
     return shift
 
 

@@ -89,6 +89,15 @@ def test_ambiguous_range_rates_of_a_contact_may_lie_at_both_ends() -> None:
     assert len(gathered(scan)) == 3
 
 
+def test_plot_without_a_range_rate_does_not_make_one_of_two_contacts() -> None:
+    """Of three side by side the first does not tell; 0 and 20 m/s stay two, of 100 in all."""
+    scan = scan_of(np.array([[1000.0, 0.0], [1001.0, 0.0], [1003.0, 0.0]]), 0.0)
+    scan = replace(scan, range_rate=np.array([np.nan, 0.0, 20.0]))
+    for interval in (0.0, 100.0):
+        two = gathered(replace(scan, range_rate_interval=interval))
+        assert_allclose(two.range_rate, [0.0, 20.0], atol=1e-9)
+
+
 def test_plots_with_and_without_height_are_one_among_those_with() -> None:
     """False plots are counted per m^3 where the height is known, per m^2 elsewhere."""
     scan = scan_of(np.array([[1000.0, 0.0, np.nan], [1010.0, 0.0, 10.0], [3000.0, 0.0, np.nan]]))
