@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from tracking_core.batches import Floats, Measurement, Pairs, Scan
+from tracking_core.batches import Bools, Floats, Measurement, Pairs, Scan
 from tracking_core.rows import take_rows
 
 _SURE = 2.0  # sd, that must fit into half of the interval of range rates
@@ -58,7 +60,7 @@ def with_range_rate(
     scan: Scan,
     place: Floats,
     velocity: Floats,
-    velocity_variance: Floats,
+    velocity_covariance: Floats,
 ) -> Measurement:
     """
     Append range rate as one more component of the plane: u (v - v_sensor) along the line of sight.
@@ -79,7 +81,7 @@ def with_range_rate(
         Plots with `range_rate`, NaN where absent.
     place : (P, d) array
         Of the plots, where they lack a height at that of the track [m].
-    velocity, velocity_variance : (P, d) arrays
+    velocity, velocity_covariance : (P, d) and (P, d, d) arrays
         Predicted velocity in all coordinates of the scan [m/s, m^2/s^2].
 
     """
@@ -97,34 +99,41 @@ def with_range_rate(
     noise = np.nan_to_num(scan.covariance[rows])
     swing = np.einsum('pd,pde,pe->p', across, noise, across) / distance**2
     variance = scan.range_rate_variance[rows] + swing
-    variance += (sight**2 * velocity_variance)[:, ~inside].sum(axis=1)
+    variance += _along(sight * ~inside, velocity_covariance)
     row = np.zeros((len(pairs), 1, measurement.matrix.shape[2]))
     row[:, 0, 1::2] = sight[:, inside]
-    if scan.range_rate_interval:
-        expected = (sight * velocity)[:, inside].sum(axis=1)
-        doubt = variance + (sight**2 * velocity_variance)[:, inside].sum(axis=1)
-        value, row, variance = _unfold(
-            value, row, variance, expected, doubt, scan.range_rate_interval
-        )
-    return _append(measurement, value, row, variance)
+    if not scan.range_rate_interval:
+        return _append(measurement, value, row, variance)
+    expected = (sight * velocity)[:, inside].sum(axis=1)
+    doubt = variance + _along(sight * inside, velocity_covariance)
+    interval = scan.range_rate_interval
+    value, row, variance, vague = _unfold(value, row, variance, expected, doubt, interval)
+    full = _append(measurement, value, row, variance)
+    return replace(full, absent=full.absent + vague)
+
+
+def _along(sight: Floats, covariance: Floats) -> Floats:
+    """Return the variance (P,) of velocities along the lines of sight (P, d)."""
+    return np.asarray(np.einsum('pd,pe,pde->p', sight, sight, covariance))
 
 
 def _unfold(
     value: Floats, row: Floats, variance: Floats, expected: Floats, doubt: Floats, interval: float
-) -> tuple[Floats, Floats, Floats]:
+) -> tuple[Floats, Floats, Floats, Bools]:
     """
     Return range rates (P,) that come again after an interval, those nearest to the expected ones.
 
     Where the expectation, of variance `doubt`, is too vague to say which, the range rate says
-    nothing: it is as likely as any other within the interval.
+    nothing: it is as likely as any other within the interval, and no component. Which these are
+    is the last that is returned.
     """
     near = value + interval * np.rint((expected - value) / interval)
     sure = _SURE * np.sqrt(doubt) < 0.5 * interval
-    even = interval**2 / (2.0 * np.pi)  # a Gaussian of this variance has 1 / interval at 0
     return (
         np.where(sure, near, 0.0 * near),  # NaN stays NaN
         np.where(sure[:, None, None], row, 0.0),
-        np.where(sure, variance, even),
+        np.where(sure, variance, interval**2),  # a determinant as of the density 1 / interval
+        ~sure & np.isfinite(value),
     )
 
 

@@ -34,7 +34,7 @@ class Gates:
     three_sigma: Floats  # (T, d) half size of the 3-sigma gate of the predicted mixture
     volume: Floats  # (T,)
     velocity: Floats  # (T, d) predicted, of the mixture
-    velocity_variance: Floats  # (T, d)
+    velocity_covariance: Floats  # (T, d, d) of velocities in one plane, 0 between planes
 
 
 @dataclass(frozen=True)
@@ -73,13 +73,14 @@ def open_gates(
 
     """
     T, d = len(mixtures[0].mean), sensor.dimensions
-    mean, variance, velocity, velocity_variance, low, high = np.zeros((6, d, T)).swapaxes(1, 2)
+    mean, variance, velocity, low, high = np.zeros((5, d, T)).swapaxes(1, 2)
+    velocity_covariance = np.zeros((d, d, T)).T
     moments = [mixture.moments() for mixture in mixtures]
     for plane, (m, P) in zip(planes, moments, strict=True):
         at, diagonal = plane.part, P.diagonal(0, 1, 2)
         place, rate = axes_of(plane.coordinates)
         mean[:, at], velocity[:, at] = m[:, place], m[:, rate]
-        variance[:, at], velocity_variance[:, at] = diagonal[:, place], diagonal[:, rate]
+        variance[:, at], velocity_covariance[:, at, at] = diagonal[:, place], P[:, rate, rate]
     R, excess = sensor.noise(mean, scan.coverage), np.array(scan.excess)
     volume = np.full(T, _UNIT_BALL[d] * threshold ** (0.5 * d))
     for plane, mixture, (_, P) in zip(planes, mixtures, moments, strict=True):
@@ -94,7 +95,7 @@ def open_gates(
         volume *= np.sqrt(np.maximum(determinant(P[:, place, place] + noise), 0.0))
     three_sigma = 3.0 * np.sqrt(variance + R.diagonal(0, 1, 2))
     centre = 0.5 * (low + high)
-    return Gates(centre, high - centre, three_sigma, volume, velocity, velocity_variance)
+    return Gates(centre, high - centre, three_sigma, volume, velocity, velocity_covariance)
 
 
 def axes_of(coordinates: Sequence[int]) -> tuple[slice, slice]:
@@ -170,7 +171,7 @@ def _innovate(
         if has_range_rate and 0 in plane.coordinates:
             measured = measurement.with_range_rate(
                 measured, plane.coordinates, pairs, scan, place,
-                gates.velocity[pairs.track], gates.velocity_variance[pairs.track],
+                gates.velocity[pairs.track], take_rows(gates.velocity_covariance, pairs.track),
             )  # fmt: skip
         item = plane.estimator.innovate(mixture, pairs.track, measured)
         innovations.append(item)

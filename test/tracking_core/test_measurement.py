@@ -8,9 +8,18 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
+import pytest
 
 from tracking_core import measurement
-from tracking_core.batches import Coverage, Innovations, Mixture, Pairs, Scan
+from tracking_core.batches import (
+    Coverage,
+    Floats,
+    Innovations,
+    Measurement,
+    Mixture,
+    Pairs,
+    Scan,
+)
 from tracking_core.kalman import innovate
 
 SENSOR = np.array([100.0, 0.0, 0.0])  # [m]
@@ -72,7 +81,7 @@ def test_with_range_rate_measures_along_the_line_of_sight() -> None:
     pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
     level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
     full = measurement.with_range_rate(
-        level, (0, 1), pairs, scan, scan.position, velocity, np.array([[9.0, 9.0, 2.0]])
+        level, (0, 1), pairs, scan, scan.position, velocity, np.diag([9.0, 9.0, 2.0])[None]
     )
     state = np.array([700.0, 30.0, 800.0, -40.0])
     assert_allclose(full.matrix[0] @ state, full.value[0], rtol=1e-12)
@@ -93,8 +102,9 @@ def test_with_range_rate_ignores_plots_without() -> None:
     pairs = Pairs(np.array([0, 0]), np.array([0, 1]), np.zeros(2))
     level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
     full = measurement.with_range_rate(
-        level, (0, 1), pairs, scan, scan.position, np.full((2, 2), 10.0), np.ones((2, 2))
-    )
+        level, (0, 1), pairs, scan, scan.position, np.full((2, 2), 10.0),
+        np.tile(np.eye(2), (2, 1, 1)),
+    )  # fmt: skip
     assert_array_equal(full.absent, [1, 0])
     plane = Mixture(
         np.array([[[690.0, 10.0, 805.0, 10.0]]]), 50.0 * np.eye(4)[None, None], np.ones((1, 1)),
@@ -111,9 +121,9 @@ def folded(velocity_variance: float, interval: float) -> tuple[Innovations, Inno
     scan = replace(make_scan([[1100.0, 0.0]], [10.0]), range_rate_interval=interval)
     pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
     level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
-    variance = np.full((1, 2), velocity_variance)
+    covariance = velocity_variance * np.eye(2)[None]
     full = measurement.with_range_rate(
-        level, (0, 1), pairs, scan, scan.position, np.array([[-29.0, 5.0]]), variance
+        level, (0, 1), pairs, scan, scan.position, np.array([[-29.0, 5.0]]), covariance
     )
     P = np.diag([50.0, velocity_variance, 50.0, velocity_variance])
     mean = np.array([[[1100.0, -29.0, 0.0, 5.0]]])
@@ -134,3 +144,47 @@ def test_ambiguous_range_rate_says_nothing_of_a_vague_velocity() -> None:
     assert_allclose(both.cross_covariance[0, 0, :, 2], 0.0)
     assert_allclose(both.distance, position.distance, atol=1e-12)
     assert_allclose(both.log_likelihood, position.log_likelihood - np.log(40.0), rtol=1e-12)
+
+
+def test_ambiguous_range_rate_of_a_vague_velocity_is_no_component() -> None:
+    """The gate asks how many components a plot has: the two of its position."""
+    vague, told = (folding(variance * np.eye(2)[None], 0.0) for variance in (400.0, 1.0))
+    assert_array_equal([vague.absent, told.absent], [[1], [0]])
+    unknown = folding(400.0 * np.eye(2)[None], 0.0, np.nan)
+    assert_array_equal(unknown.absent, [1])
+
+
+def folding(covariance: Floats, bearing: float, rate: float = 10.0) -> Measurement:
+    """Return what a plot with a range rate in 40 m/s measures of a track of this velocity P."""
+    place = SENSOR[:2] + 1000.0 * np.array([np.cos(bearing), np.sin(bearing)])
+    scan = replace(make_scan([place], [rate], variance=0.0), range_rate_interval=40.0)
+    pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
+    level = measurement.of_plane((0, 1), pairs, scan, scan.position[pairs.plot])
+    velocity = scan.sensor_velocity[:, :2]
+    return measurement.with_range_rate(
+        level, (0, 1), pairs, scan, scan.position, velocity, covariance
+    )
+
+
+@pytest.mark.parametrize(('bearing', 'is_sure'), [(0.25, False), (-0.25, True)])
+def test_ambiguous_range_rate_is_doubted_along_the_line_of_sight(bearing, is_sure) -> None:
+    """Sd 10 m/s would fit into half of 40; it is 1.9 or 0.1 times the variance where it counts."""
+    covariance = 0.95 * 100.0 * np.array([[[1.0, 0.9], [0.9, 1.0]]])
+    found = folding(covariance, bearing * np.pi)
+    assert bool(found.matrix[0, 2].any()) == is_sure
+
+
+def test_with_range_rate_takes_the_velocities_of_other_planes_together() -> None:
+    """Of the axis x alone, y and z are as predicted; what they have in common counts."""
+    scan = make_scan([[700.0, 800.0, 300.0]], [1.0])
+    scan = replace(scan, covariance=np.zeros((1, 3, 3)))
+    pairs = Pairs(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
+    level = measurement.of_plane((0,), pairs, scan, scan.position[pairs.plot])
+    covariance = np.array([[[7.0, 0.0, 0.0], [0.0, 4.0, 1.0], [0.0, 1.0, 2.0]]])
+    full = measurement.with_range_rate(
+        level, (0,), pairs, scan, scan.position, np.zeros((1, 3)), covariance
+    )
+    line = scan.position[0] - SENSOR
+    y, z = line[1:] / np.linalg.norm(line)
+    expected = 4.0 + 4.0 * y**2 + 2.0 * z**2 + 2.0 * y * z
+    assert_allclose(full.covariance[0, 1, 1], expected)

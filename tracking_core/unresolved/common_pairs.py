@@ -150,5 +150,5 @@ def _measured(
     gates = take(passed.gates, pairs.track)
     place = np.where(np.isnan(value), gates.centre, value)
     return measurement.with_range_rate(
-        part, plane.coordinates, pairs, scan, place, gates.velocity, gates.velocity_variance
+        part, plane.coordinates, pairs, scan, place, gates.velocity, gates.velocity_covariance
     )
