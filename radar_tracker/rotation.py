@@ -16,6 +16,7 @@ _USUAL = 0.1  # part by which a turn may differ from the interval between full t
 _RIVAL = 0.05  # resultant length by which a rate must fit better than any quite different one
 _STEPS = 8  # candidates from the top of a fit to its first zero
 _STILL = 1e-9  # part of the rate by which it may change and still stand
+_AT_ONCE = 2**16  # plots times candidates whose arrays stay near the processor
 _NEIGHBOURS = 12  # candidates to either side of one that are no different rate
 
 
@@ -61,8 +62,15 @@ def refine_rate(time: Floats, azimuth: Floats, rate: float) -> float:
 
 def in_step(time: Floats, azimuth: Floats, rates: Floats) -> Floats:
     """Return the mean resultant length (R,) of azimuth minus antenna at each rate (R,)."""
-    middle = time - time.mean()
-    return np.asarray(np.abs(np.exp(1j * (azimuth - rates[:, None] * middle)).mean(axis=1)))
+    middle, parts = time - time.mean(), len(rates) * len(time) // _AT_ONCE + 1
+    return np.concatenate(
+        [_resultant(azimuth - part[:, None] * middle) for part in np.array_split(rates, parts)]
+    )
+
+
+def _resultant(angle: Floats) -> Floats:
+    """Return the mean resultant length (R,) of angles (R, M)."""
+    return np.asarray(np.hypot(np.cos(angle).mean(axis=1), np.sin(angle).mean(axis=1)))
 
 
 def _plausible(rates: Floats, fit: Floats, interval: float) -> Floats:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+import tracemalloc
 
 import numpy as np
 from numpy.testing import assert_allclose
@@ -197,3 +198,19 @@ def test_few_contacts_at_rest_teach_no_wrong_rotation(
         antenna.follow(replace(plots, stamp=period * turn), noisy)
     right = -2.0 * np.pi / period
     assert antenna.rotation_rate in (0.0, pytest.approx(right, rel=1e-3))
+
+
+@pytest.mark.parametrize('each', [10.0, 300.0])
+def test_follow_looks_for_a_rate_in_bounded_memory(each: float) -> None:
+    """A sensor that stares, a message now and then all night long: no rate, and no 100 MB."""
+    antenna, rng = Antenna(0.0, True, 'start'), np.random.default_rng(5)
+    tracemalloc.start()
+    try:
+        for number in range(402):
+            time = each * number + np.sort(rng.uniform(0.0, 1.0, 2))
+            plots = Plots.polar(time, np.full(2, 1e4), rng.uniform(-np.pi, np.pi, 2))
+            antenna.follow(replace(plots, stamp=each * number), plots.azimuth)
+        assert tracemalloc.get_traced_memory()[1] < 20e6
+    finally:
+        tracemalloc.stop()
+    assert antenna.rotation_rate == 0.0
