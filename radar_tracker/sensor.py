@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from radar_tracker import mounting
-from radar_tracker.conversion import linearised, to_cartesian, to_polar
+from radar_tracker.conversion import to_cartesian, to_polar
 from radar_tracker.mounting import PlatformDoubt
 from radar_tracker.plot_space import of_plots, space_per_metre
 from radar_tracker.resolving import limits, reach
@@ -79,7 +79,7 @@ class Radar:
         if not self.is_polar:
             return np.broadcast_to(c.position_sd**2 * np.eye(d), (len(offset), d, d))
         sd = np.broadcast_to([c.range_sd, c.azimuth_sd, c.elevation_sd][:d], offset.shape)
-        return linearised(to_polar(offset), sd)[1]
+        return to_cartesian(to_polar(offset), sd)[1]
 
     def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
         """Return plot space per m^d (T,) at positions (T, d): 1/r, 1/(r^2 cos elevation) or 1."""
