@@ -12,16 +12,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+import math
 
 import numpy as np
 
 from tracking_core.association.clusters import renumber
 from tracking_core.batches import Floats, Ints, Scan
 from tracking_core.linalg import sum_by_track
-from tracking_core.rows import change, concatenate
+from tracking_core.rows import change, concatenate, take
 from tracking_core.space import Space
 
 _RATE_SIGMAS = 3.0  # by how much of their noise range rates of one contact may differ
+_ABSENT = 1e300  # in the place of NaN, which is not the same as NaN
+_GOLDEN, _SILVER = 0.5 * (math.sqrt(5.0) - 1.0), math.sqrt(2.0) - 1.0  # parts that share nothing
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,8 @@ class Extent:
             scan = concatenate(held, scan)
         if self.size == 0.0 or len(scan) < 2:
             return scan
-        contact = self._contacts(scan, 0.5 * interval, space)
+        first, same = _distinct(scan)
+        contact = self._contacts(take(scan, first), 0.5 * interval, space)[same]
         return scan if len(contact) == contact.max() + 1 else _one_each(scan, contact)
 
     def _contacts(self, scan: Scan, longest: float, space: Space) -> Ints:
@@ -96,6 +100,15 @@ class Extent:
 ONE_PLOT = Extent(size=0.0, speed_max=0.0)
 
 
+def _distinct(scan: Scan) -> tuple[Ints, Ints]:
+    """Return the first (K,) of plots that are the same, and which of them each (M,) is."""
+    rows = np.column_stack([scan.position, scan.time, scan.range_rate])
+    rows = np.nan_to_num(rows, nan=_ABSENT)
+    _, first, same = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    order = first.argsort()
+    return first[order], order.argsort()[same.reshape(-1)]
+
+
 def _unfolding(low: Floats, high: Floats, one: Ints, other: Ints, interval: float) -> Floats:
     """Return what brings ambiguous range rates, the last column, near those of `one`."""
     shift = np.zeros((len(one), low.shape[1]))
@@ -109,8 +122,13 @@ def _unfolding(low: Floats, high: Floats, one: Ints, other: Ints, interval: floa
 def _nearest_of_each_other(
     one: Ints, other: Ints, extent: Floats, plots: int
 ) -> tuple[Ints, Ints]:
-    """Return the pairs of which each is the nearest of the other; none is in two of them."""
-    order = extent.argsort(kind='stable')
+    """
+    Return the pairs of which each is the nearest of the other; none is in two of them.
+
+    Pairs equally near are in no order of their rows: of a row of plots only the first two would
+    be a pair of these.
+    """
+    order = np.lexsort(((one * _GOLDEN + other * _SILVER) % 1.0, extent))
     rank = np.empty(len(order), np.int64)
     rank[order] = np.arange(len(order))
     best = np.full(plots, len(order))

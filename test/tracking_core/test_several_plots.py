@@ -9,7 +9,9 @@ from itertools import combinations
 
 import numpy as np
 from numpy.testing import assert_allclose
+import pytest
 
+from tracking_core import several_plots
 from tracking_core.batches import Coverage, Floats, Scan
 from tracking_core.rows import take
 from tracking_core.several_plots import Extent, ONE_PLOT
@@ -148,3 +150,20 @@ def test_plots_of_half_the_interval_apart_are_of_two_looks() -> None:
     place = np.array([[1000.0, 0.0], [1010.0, 0.0]])
     for time, contacts in ((0.49 * INTERVAL, 1), (0.5 * INTERVAL, 2)):
         assert len(gathered(scan_of(place, np.array([0.0, time])))) == contacts
+
+
+@pytest.mark.parametrize('step', [0.0, 20.0], ids=['the same', 'in a row'])
+def test_gather_takes_few_rounds_where_plots_are_equally_near(step: float, monkeypatch) -> None:
+    """Rows that fill up a message, cells of a map: pairs are made everywhere at once."""
+    rounds, pair_up = [], several_plots._nearest_of_each_other
+
+    def counted(*pairs):
+        rounds.append(len(pairs[0]))
+        return pair_up(*pairs)
+
+    monkeypatch.setattr(several_plots, '_nearest_of_each_other', counted)
+    place = np.column_stack([step * np.arange(1000.0), np.full(1000, 500.0)])
+    one = gathered(scan_of(place, rate=np.where(np.arange(1000) % 2, np.nan, 3.0)))
+    assert len(rounds) < 20
+    assert_allclose(one.position[:, 1], 500.0)
+    assert (len(one) == 1) == (step == 0.0)
