@@ -176,6 +176,29 @@ def test_detector_has_its_false_alarm_rate(kind) -> None:
         assert np.mean(rate[20:]) == pytest.approx(0.01, abs=0.0025)
 
 
+@pytest.mark.parametrize('with_rate', [False, True])
+def test_adaptive_detector_has_its_false_alarm_rate(with_rate: bool) -> None:
+    """Of the plots of a settled filter on a straight path 1 %, with a range rate as without."""
+    rng, runs, d = np.random.default_rng(9), 4000, 2 + with_rate
+    estimator = AdaptiveAlphaBeta((0.3, 0.7), 2, 'recursion', false_alarm=0.01)
+    P = np.kron(np.eye(2), SD**2 * np.array([[1.0, 1.0 / T], [1.0 / T, 2.0 / T**2]]))
+    mixture = estimator.start(np.zeros((runs, 4)), np.tile(P, (runs, 1, 1)))
+    matrix = np.broadcast_to(np.eye(4)[[0, 2, 1]][:d], (runs, d, 4))  # of a contact in the east
+    sure = Association(np.ones(runs), np.zeros(runs), np.zeros(runs, bool))
+    sd, rate, quiet = np.array([SD, SD, 2.0])[:d], [], np.ones(runs, bool)
+    R, absent = np.tile(np.diag(sd**2), (runs, 1, 1)), np.zeros(runs, np.int64)
+    for look in range(60):
+        mixture = estimator.predict(mixture, np.full(runs, T))
+        plots = Measurement(rng.normal(0.0, sd, (runs, d)), matrix, R, absent)
+        seen = estimator.innovate(mixture, np.arange(runs), plots)
+        mixture = estimator.update(mixture, np.arange(runs), seen, sure)
+        if look > 30:
+            found = mixture.mode_probability[:, 1] == 1.0
+            rate.append(found[quiet].mean())
+            quiet &= ~found
+    assert np.mean(rate) == pytest.approx(0.01, abs=0.0015)
+
+
 def test_second_mode_opens_the_gate_for_what_the_detector_waits_for(one_axis) -> None:
     """A plot at the detector's bound lies within 3 sigma of the manoeuvre mode."""
     estimator = AdaptiveAlphaBeta((0.3, 0.7), 1)

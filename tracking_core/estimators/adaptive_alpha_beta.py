@@ -88,6 +88,13 @@ class AdaptiveAlphaBeta:
     ) -> Floats:
         """Return the normalised innovation squared (P,), plot noise alone considered."""
         if self.covariance == 'recursion':
-            return innovations.distance[:, 0]
+            return self._as_of_place(innovations)
         _, last = self._gain(place - 1.0)
         return self._filter.settled_distance(mixture, track, innovations, last)
+
+    def _as_of_place(self, innovations: Innovations) -> Floats:
+        """Return squared distances (P,), those with a range rate scaled to the same bound."""
+        cross, squared = innovations.cross_covariance[:, 0], innovations.distance[:, 0]
+        has_rate = (cross[:, :, self.axes :] != 0.0).any(axis=(1, 2))
+        bound = chi_square_bound(1.0 - self.false_alarm, self.axes + 1)
+        return np.where(has_rate, squared * self.bound / bound, squared)
