@@ -139,7 +139,7 @@ def pair(
     reach[:, :2] += farther_out(gates.centre, scan)[:, None]
     track, plot = space.find_pairs(gates.centre, reach, scan.position)
     lag = scan.time[plot] - time[track]
-    pairs = take(Pairs(track, plot, lag), np.abs(lag) <= longest_lag[track] + 1e-9)
+    pairs = take(Pairs(track, plot, lag), np.abs(lag) <= longest_lag[track])
     position = plots_beside(pairs, gates, scan, space)
     gated, dof = _innovate(planes, mixtures, gates, pairs, scan, position)
     return take(gated, gated.distance <= bounds[dof])

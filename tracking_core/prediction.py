@@ -15,6 +15,7 @@ from tracking_core.looks import inside_coverage, margins, next_looks
 from tracking_core.pairing import Gates, open_gates, thresholds
 from tracking_core.rows import change, take, take_rows
 
+_CLOCK = 1e-6  # s; times since 1970 are good to 2.4e-7
 _GATES_APART = 2.0  # 3-sigma gates between a track and where its next gate may begin
 
 
@@ -103,7 +104,12 @@ def _level_motion(tracks: Tracks) -> tuple[Floats, Floats]:
 
 
 def longest_lag(near: Predicted, scan: Scan) -> Floats:
-    """Return how far in time a plot of this look may be from the pass (T,) [s]."""
+    """
+    Return how far in time a plot of this look may be from the pass (T,) [s].
+
+    Where nothing turns the first and the last plot are just so far, but for what rounding does.
+    """
     if scan.coverage.rotation_rate:
-        return near.margin
-    return np.full(len(near.time), 0.5 * (scan.coverage.end_time - scan.coverage.start_time))
+        return near.margin + _CLOCK
+    longest = 0.5 * (scan.coverage.end_time - scan.coverage.start_time)
+    return np.full(len(near.time), longest + _CLOCK)

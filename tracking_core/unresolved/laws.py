@@ -62,7 +62,7 @@ def candidates(
     reach = 0.5 * (high - low) + np.abs(sets.velocity) * lag_max[:, None]
     row, plot = setup.sensor.space.find_pairs(0.5 * (low + high), reach, scan.position)
     lag = scan.time[plot] - passed.time[leader[row]]
-    fits = np.isfinite(scan.position[plot]).all(axis=1) & (np.abs(lag) <= lag_max[row] + 1e-9)
+    fits = np.isfinite(scan.position[plot]).all(axis=1) & (np.abs(lag) <= lag_max[row])
     return row[fits], plot[fits], lag[fits]
 
 
