@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from scipy.signal import lfilter
 
 from benchmarks.sonar_recordings import DEGREE, Record
 from tracking_core.batches import Bearings, Bools, Floats
@@ -42,6 +43,7 @@ class Array:
     heading_memory: float = 0.0  # over which it wanders [s]; 0: white
     heading_told: bool = False  # its variance is
     heading_late: float = 0.0  # [s]
+    towed: float = 0.0  # own ship's heading is told, and the array comes round in so long [s]
     sd_told: float = 1.0  # times the true one
     fades: bool = False
     lane: float = 0.0  # marks in a cycle of contacts that nobody can part
@@ -69,13 +71,14 @@ def listen(seed: int, array: Array) -> Heard:
     own -= own[np.searchsorted(time, 0.0)]
     cycles = np.arange(CYCLE, DURATION, CYCLE)
     at = np.searchsorted(time, cycles)
-    line = _contacts(rng, array, cycles, own[at], heading[at]) - own[at][:, None]
-    relative = wrap_angle(np.arctan2(line[..., 1], line[..., 0]) - heading[at][:, None])
+    axis = _axis(array, heading)[at]
+    line = _contacts(rng, array, cycles, own[at], axis) - own[at][:, None]
+    relative = wrap_angle(np.arctan2(line[..., 1], line[..., 0]) - axis[:, None])
     audible = np.abs(np.abs(relative) - np.pi / 2) < np.pi / 2 - LIMIT * array.linear
     marks = [
-        _marks(rng, array, stamp, row[hit], axis)
-        for stamp, row, hit, axis in zip(
-            cycles, relative, _hits(rng, array, cycles, audible), heading[at], strict=True
+        _marks(rng, array, stamp, row[hit], toward)
+        for stamp, row, hit, toward in zip(
+            cycles, relative, _hits(rng, array, cycles, audible), axis, strict=True
         )
     ]
     if array.linear and not array.both_sides:
@@ -83,10 +86,18 @@ def listen(seed: int, array: Array) -> Heard:
     scan, contact = np.divmod(np.arange(relative.size), CONTACTS)
     record = Record(
         '', marks, _platform(rng, array, time, own, heading), scan, contact,
-        wrap_angle(relative + heading[at][:, None]).ravel(),
+        wrap_angle(relative + axis[:, None]).ravel(),
         np.hypot(*line.transpose(2, 0, 1)).ravel(), NEAR, np.inf,
     )  # fmt: skip
     return Heard(record, audible.ravel())
+
+
+def _axis(array: Array, heading: Floats) -> Floats:
+    """Return where the array points (K,), every `STEP`: a towed one follows."""
+    if not array.towed:
+        return heading
+    share = -np.expm1(-STEP / array.towed)
+    return np.asarray(lfilter([share], [1.0, share - 1.0], heading))
 
 
 def _contacts(rng: Rng, array: Array, time: Floats, own: Floats, heading: Floats) -> Floats:

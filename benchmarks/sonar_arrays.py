@@ -54,7 +54,14 @@ CASES: dict[str, tuple[Array, tuple[Values, ...]]] = {
     'heading 0.5 deg in 30 s, told': (
         Array(heading_sd=0.5, heading_memory=30.0, heading_told=True), (NOTHING,),
     ),
+    'heading 0.2 deg in 30 s, to starboard': (
+        Array(side='starboard', heading_sd=0.2, heading_memory=30.0), (NOTHING,),
+    ),
     'heading 0.5 s late': (Array(heading_late=0.5), (NOTHING,)),
+    'heading 0.5 s late, to starboard': (
+        Array(side='starboard', heading_late=0.5), (NOTHING,)
+    ),
+    'towed, the heading of own ship told': (Array(towed=60.0), (NOTHING,)),
     'sd told half': (Array(sd_told=0.5), (NOTHING, LEAST)),
     'sd told twice': (Array(sd_told=2.0), (NOTHING,)),
     'fades, where they are': (Array(fades=True, both_sides=True), (NOTHING, PATIENT)),

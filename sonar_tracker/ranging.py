@@ -17,9 +17,8 @@ import numpy as np
 from sonar_tracker.bearing_history import BearingHistory
 from sonar_tracker.marked import last_marks
 from sonar_tracker.ranging_config import RangingConfig
-from sonar_tracker.ranging_fit import fit
 from sonar_tracker.ranging_model import legs_of
-from sonar_tracker.ranging_verdict import judge, may_tell
+from sonar_tracker.ranging_verdict import explain, may_tell
 from tracking_core.batches import Bools, Coverage, Floats, Ints, Tracks
 from tracking_core.linalg import symmetrise
 from tracking_core.rows import take
@@ -136,8 +135,7 @@ class Ranging:
         rows, legs = rows[told], take(legs, told)
         if len(rows) == 0:
             return
-        best = fit(legs, self.config.range_min, self.config.range_max)
-        verdict = judge(best, legs, self.config, heading_sd)
+        verdict = explain(legs, self.config, heading_sd)
         self.history.forget_older_half(rows[verdict.bent])
         observable = verdict.observable
         found.state[rows[observable]] = verdict.state[observable]

@@ -59,3 +59,7 @@ class RangingConfig:
                 f'RangingConfig.least_points must be at most points / 2 = {self.points // 2}, '
                 f'got {self.least_points}'
             )
+
+    def heading_error(self, told: float) -> float:
+        """Return the error of the heading [rad] that a range must stand; own ship tells one."""
+        return max(self.heading_noise, told)

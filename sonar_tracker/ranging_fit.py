@@ -11,12 +11,12 @@ import numpy as np
 from sonar_tracker.ranging_model import compare, in_axes, Legs, residuals
 from tracking_core.batches import Bools, Floats
 from tracking_core.linalg import symmetrise, wrap_angle
-from tracking_core.rows import take
+from tracking_core.rows import change, take
 
 _STARTS = 12  # ranges that are tried, evenly in their logarithm
 _STEPS = 25  # of Levenberg and Marquardt; half a dozen are usual
 _MOST_STEPS = 400  # of those few that creep along a valley, as with marks near an array's axis
-_DONE = 1e-4  # a step that lowers chi-square by less than this is the last
+_DONE = 1e-4  # a step that lowers chi-square of a good fit by less than this is the last
 _FIRST_DAMPING = 1e-3
 _STUCK = 1e9  # damping at which no step is left
 _RIDGE = 1e-9  # of the linear start, as a part of all that is known
@@ -28,7 +28,7 @@ class Fit:
     """The best straight course of T tracks: b, c span, w span, u reach."""
 
     state: Floats  # (T, 4)
-    slope: Floats  # (T, K, 4) of the bearings by the state, in sd of the marks
+    slope: Floats  # (T, K, 4) of the bearings by the state, in sd of the marks, whitened
     information: Floats  # (T, 4, 4) of the state, Fisher
     chi_square: Floats  # (T,)
     serial: Floats  # (T,) sum of products of neighbouring residuals over its sd
@@ -69,15 +69,18 @@ def _descend(
 ) -> tuple[Floats, Bools]:
     """Return the states (T, 4) after so many steps at most, and which have not arrived (T,)."""
     residual, slope = compare(state, legs)
-    chi_square = (residual**2).sum(axis=1)
+    chi_square, count = (residual**2).sum(axis=1), (legs.weight > 0.0).sum(axis=1)
     damping, going = np.full(len(state), _FIRST_DAMPING), np.ones(len(state), bool)
     for _ in range(steps):
-        trial = state + _step(residual, slope, damping)
+        u, downhill = state[:, 3], np.einsum('tk,tk->t', slope[..., 3], residual)
+        stopped = ((u <= low) & (downhill < 0.0)) | ((u >= high) & (downhill > 0.0))
+        trial = state + _step(residual, slope, damping, stopped)
         trial[:, 3] = np.clip(trial[:, 3], low, high)
         new_residual, new_slope = compare(trial, legs)
         new_chi_square = (new_residual**2).sum(axis=1)
         better = going & (new_chi_square <= chi_square)
-        going &= ~better | (chi_square - new_chi_square > _DONE)
+        done = _DONE * np.maximum(chi_square / count, 1.0)
+        going &= ~better | (chi_square - new_chi_square > done)
         state = np.where(better[:, None], trial, state)
         residual = np.where(better[:, None], new_residual, residual)
         slope = np.where(better[:, None, None], new_slope, slope)
@@ -89,8 +92,9 @@ def _descend(
     return state, going
 
 
-def _step(residual: Floats, slope: Floats, damping: Floats) -> Floats:
-    """Return the damped step of Gauss and Newton (T, 4)."""
+def _step(residual: Floats, slope: Floats, damping: Floats, stopped: Bools) -> Floats:
+    """Return the damped step of Gauss and Newton (T, 4), where u is stopped that of the others."""
+    slope = slope * np.where(stopped[:, None, None], [1.0, 1.0, 1.0, 0.0], 1.0)
     normal = np.swapaxes(slope, 1, 2) @ slope
     gradient = np.einsum('tka,tk->ta', slope, residual)
     diagonal = np.einsum('taa->ta', normal)
@@ -124,6 +128,6 @@ def _start(legs: Legs, low: Floats, high: Floats) -> Floats:
     state = np.empty((_STARTS, len(low), 4))
     state[..., 0], state[..., 1:3], state[..., 3] = b, 0.0, u
     state[..., :3] += solved[..., 0] + u[..., None] * solved[..., 1]
-    tried = take(legs, np.tile(rows, _STARTS))
+    tried = take(change(legs, whitening=None), np.tile(rows, _STARTS))
     chi_square = (residuals(state.reshape(-1, 4), tried) ** 2).sum(axis=1).reshape(u.shape)
     return np.asarray(state[np.argmin(chi_square, axis=0), rows])

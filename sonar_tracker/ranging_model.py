@@ -37,6 +37,7 @@ class Legs:
     velocity: Floats  # (T, 2) of the even motion [m/s]
     span: Floats  # (T,) [s]
     reach: Floats  # (T,) greatest |d| [m]
+    whitening: Floats | None = None  # (T, K, K) of the residuals of marks that err alike
 
 
 def legs_of(points: PastMarks) -> Legs:
@@ -92,13 +93,13 @@ def distances(state: Floats, legs: Legs) -> tuple[Floats, Floats]:
 
 
 def residuals(state: Floats, legs: Legs) -> Floats:
-    """Return bearings less those of the model (T, K) in sd."""
+    """Return bearings less those of the model (T, K) in sd of the marks."""
     along, across = _lines(state, legs)[:2]
     return _residuals(state, legs, along, across)
 
 
 def compare(state: Floats, legs: Legs) -> tuple[Floats, Floats]:
-    """Return residuals (T, K) in sd and the slope of the model in sd (T, K, 4)."""
+    """Return residuals (T, K) in sd and the slope of the model in sd (T, K, 4), whitened."""
     along, across, d_along, d_across = _lines(state, legs)
     u, root = state[:, 3:], np.sqrt(legs.weight)
     residual = _residuals(state, legs, along, across)
@@ -108,7 +109,9 @@ def compare(state: Floats, legs: Legs) -> tuple[Floats, Floats]:
     slope[..., 1] = -scale * across * legs.tau
     slope[..., 2] = scale * along * legs.tau
     slope[..., 3] = scale * (across * d_along - along * d_across)
-    return residual, slope
+    if legs.whitening is None:
+        return residual, slope
+    return (legs.whitening @ residual[..., None])[..., 0], legs.whitening @ slope
 
 
 def _residuals(state: Floats, legs: Legs, along: Floats, across: Floats) -> Floats:

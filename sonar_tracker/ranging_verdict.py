@@ -10,15 +10,16 @@ import numpy as np
 from scipy.special import chdtrc, ndtr
 
 from sonar_tracker.ranging_config import RangingConfig
-from sonar_tracker.ranging_fit import Fit
+from sonar_tracker.ranging_fit import Fit, fit
+from sonar_tracker.ranging_heading import misheaded, with_wandering
 from sonar_tracker.ranging_model import courses, distances, Legs
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.chances import TINY
 from tracking_core.linalg import inverse, symmetrise
+from tracking_core.rows import put, take
 
 _UNKNOWNS = 4
 _WORST_CONDITION = 1e10  # of the information; beyond it the inverse is rounding
-_HEADING_MEMORY = 30.0  # s, over which an error of the heading is forgotten
 _SURELY = 3.0  # sds of the noise that neighbouring marks show
 _LEAST_NOISE = 0.25  # variance over the one that is told; below it averaged marks show as bends
 _EDGE = 1e-3  # a range as near to its limits as this has been stopped there
@@ -31,6 +32,7 @@ class Verdict:
     state: Floats  # (T, 4) x, y, vx, vy at the time of the newest mark [m, m/s]
     covariance: Floats  # (T, 4, 4) of a contact on a straight course, inverse of the information
     observable: Bools  # (T,)
+    straight: Bools  # (T,) the residuals are those of a straight course
     bent: Bools  # (T,) surely no straight course
 
 
@@ -40,6 +42,28 @@ def may_tell(legs: Legs, config: RangingConfig) -> Bools:
     return np.asarray(information * config.relative_sd**2 > config.range_min**2)
 
 
+def explain(legs: Legs, config: RangingConfig, heading_sd: float = 0.0) -> Verdict:
+    """
+    Fit straight courses and judge them: first heard with a true heading, then with a wrong one.
+
+    Marks that no straight course explains are fitted again as those of a heading that wanders as
+    far as a range must stand.
+
+    Parameters
+    ----------
+    legs, config, heading_sd
+        As `judge` wants them.
+
+    """
+    limits = config.range_min, config.range_max
+    verdict = judge(fit(legs, *limits), legs, config, heading_sd)
+    doubted = np.flatnonzero(~verdict.straight)
+    if len(doubted) == 0:
+        return verdict
+    legs = with_wandering(take(legs, doubted), config.heading_error(heading_sd))
+    return put(verdict, doubted, judge(fit(legs, *limits), legs, config, heading_sd))
+
+
 def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0) -> Verdict:
     """
     Say which ranges are observable.
@@ -47,7 +71,8 @@ def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0)
     A range is, if the information is well conditioned, if the relative sd of the range is small,
     even if the contact strays from its course a little and own ship's heading is wrong, and if the
     residuals are as small and as white as those of a straight course. How noisy the marks are the
-    residuals tell, too; a heading that is wrong for a while they do not.
+    residuals tell, too; a heading that is wrong for a while they need not. If marks were whitened
+    because of it, it must be the only reason, and a good one.
 
     Parameters
     ----------
@@ -63,11 +88,13 @@ def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0)
     unit = np.where(sound[:, None, None], unit, np.eye(_UNKNOWNS))
     bound = inverse(unit)[0] * scale[:, :, None] * scale[:, None, :]
     count = (legs.weight > 0.0).sum(axis=1)
-    noise = _noise(best, count)
-    # How u reach follows each mark (T, K) [1/rad]: the fit's gain on the marks is bound slope^T.
-    gain = (best.slope @ bound[:, :, 3:])[..., 0] * np.sqrt(legs.weight)
+    noise, alarm = _noise(best, count), config.false_alarm
+    gain = _gain(best, legs, bound[:, 3])
     astray = config.velocity_noise**2 * _straying(best, legs, gain)
-    astray += max(config.heading_noise, heading_sd) ** 2 * _misheaded(legs, gain)
+    if legs.whitening is None:
+        astray += config.heading_error(heading_sd) ** 2 * misheaded(legs, gain)
+    else:
+        noise, alarm = np.minimum(noise, 1.0), np.sqrt(alarm)
     bound *= np.maximum(noise, 1.0)[:, None, None]
     range_variance = bound[:, 3, 3] + astray
     observable = sound & (range_variance < (config.relative_sd * best.state[:, 3]) ** 2)
@@ -76,14 +103,24 @@ def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0)
     observable &= distance > (1.0 + _EDGE) * config.range_min
     observable &= distance < (1.0 - _EDGE) * config.range_max
     chance = _chance(best, noise, count)
+    straight = chance > alarm
     state, jacobian = courses(best.state, legs)
     return Verdict(
         state=state,
         covariance=symmetrise(jacobian @ bound @ np.swapaxes(jacobian, 1, 2)),
-        observable=observable & best.arrived & (chance > config.false_alarm),
+        observable=observable & best.arrived & straight,
+        straight=straight,
         # A false alarm would cost the leg before the manoeuvre: be twice as sure.
         bent=best.arrived & (chance < config.false_alarm**2),
     )
+
+
+def _gain(best: Fit, legs: Legs, bound: Floats) -> Floats:
+    """Return how an unknown of these covariances (T, 4) follows each mark (T, K) [1/rad]."""
+    follows = (best.slope @ bound[..., None])[..., 0]
+    if legs.whitening is not None:
+        follows = (follows[:, None] @ legs.whitening)[:, 0]
+    return np.asarray(follows * np.sqrt(legs.weight))
 
 
 def _noise(best: Fit, count: Ints) -> Floats:
@@ -119,20 +156,3 @@ def _straying(best: Fit, legs: Legs, gain: Floats) -> Floats:
         old, young = start - rate * age, start - rate * younger
         variance += ((age - younger) * (old**2 + old * young + young**2)).sum(axis=1) / 3.0
     return variance
-
-
-def _misheaded(legs: Legs, gain: Floats) -> Floats:
-    """
-    Return what a heading with an sd of 1 rad adds to the variance of u reach (T,).
-
-    Its error is that of all marks, and is forgotten exponentially. What older marks do to each is
-    summed in strides that double: so there is no matrix of marks by marks.
-    """
-    step = np.diff(legs.tau, axis=1, prepend=legs.tau[:, :1]) * legs.span[:, None]
-    kept = np.exp(-np.maximum(step, 0.0) / _HEADING_MEMORY)  # rows without a mark: tau 0, no gain
-    total, stride = gain.copy(), 1
-    while stride < gain.shape[1]:
-        total[:, stride:] += kept[:, stride:] * total[:, :-stride]
-        kept[:, stride:] *= kept[:, :-stride]
-        stride *= 2
-    return np.asarray((gain * (2.0 * total - gain)).sum(axis=1))

@@ -16,8 +16,9 @@ def as_data(
     """
     Undo the comparison of pairs with their tracks, in the likeliest mode.
 
-    A mark is z = h bearing + what is not of this track: h is 1, or the track's share in an
-    unresolved mark. So the cross covariance is h P, and S is h^2 P + R.
+    A mark is z = H x + what is not of this track: H is (h, h dt), where h is 1, or the track's
+    share in an unresolved mark, and dt the time from the look to the mark. So the cross covariance
+    is P H', and S is H P H' + R. The bearing is moved to the look by the track's rate.
 
     Parameters
     ----------
@@ -36,10 +37,12 @@ def as_data(
     """
     mode, row = np.argmax(mixture.mode_probability, axis=1), np.arange(len(track))
     at = mode[track]
-    cross = innovations.cross_covariance[row, at, 0, 0]
-    h = cross / mixture.covariance[track, at, 0, 0]
+    cross = innovations.cross_covariance[row, at, :, :1]
+    H = np.linalg.solve(mixture.covariance[track, at], cross)
+    h = H[:, 0, 0]
     bearing = mixture.mean[track, at, 0] + innovations.innovation[row, at, 0] / h
-    return bearing, np.maximum(innovations.covariance[row, at, 0, 0] - h * cross, 0.0) / h**2, h
+    explained = (H * cross).sum(axis=(1, 2))
+    return bearing, np.maximum(innovations.covariance[row, at, 0, 0] - explained, 0.0) / h**2, h
 
 
 def average(

@@ -76,3 +76,16 @@ def test_marked_filter_leaves_common_marks_out() -> None:
     for seen, has in ((alone, True), (shared, False)):
         updated = estimator.update(plane, np.zeros(1, np.int64), seen, sure)
         assert (last_marks(updated)[1][0] > 0.0) == has
+
+
+def test_marked_filter_keeps_marks_at_their_own_time() -> None:
+    """A mark from before the look is the track's own, however uncertain the rate makes it."""
+    estimator, covariance = Marked(FILTERS['kalman']), np.array([[[1e-4, 8e-6], [8e-6, 1e-6]]])
+    plane = estimator.start(np.array([[0.1, 1e-3]]), covariance)
+    none, R = np.zeros(1, np.int64), np.full((1, 1, 1), 1e-5)
+    H = np.array([[[1.0, -5.0]]])  # 5 s before it
+    seen = estimator.innovate(plane, none, Measurement(np.array([[0.105]]), H, R, none))
+    sure = Association(np.ones(1), np.zeros(1), np.zeros(1, bool))
+    bearing, weight = last_marks(estimator.update(plane, none, seen, sure))
+    assert_allclose(bearing, 0.105 + 5.0 * 1e-3)  # where the rate has it at the look
+    assert_allclose(weight, 1e5)

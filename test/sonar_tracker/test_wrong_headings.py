@@ -15,7 +15,7 @@ from sonar_tracker.ranging import Ranging
 from sonar_tracker.ranging_config import RangingConfig
 from sonar_tracker.ranging_fit import fit
 from sonar_tracker.ranging_model import Legs, legs_of
-from sonar_tracker.ranging_verdict import judge
+from sonar_tracker.ranging_verdict import explain, judge
 from sonar_tracker.tracker import SonarTracker
 from tracking_core.batches import Bearings
 from tracking_core.config import with_values
@@ -25,6 +25,7 @@ from tracking_core.platform import Platform
 DEGREE = np.pi / 180.0
 SD = 0.1 * DEGREE
 WANDERING, MEMORY = 0.005, 30.0  # [rad], [s]
+PLACE = (3000.0, 4000.0)  # of a contact [m]
 
 
 def turn_of_own_ship():
@@ -35,15 +36,23 @@ def turn_of_own_ship():
     return time, course, np.cumsum(steps, axis=0)
 
 
-def misheard() -> Legs:
-    """Return one contact's marks 400 times, own ship's heading wandering differently in each."""
+def misheard(noise: float = 0.0, turn: float = 0.0) -> Legs:
+    """
+    Return one contact's marks 400 times, own ship's heading wandering differently in each.
+
+    The marks err by `noise` [rad] beside; the contact goes 5 m/s and turns by `turn` [rad] at
+    1000 s, or stands still if it does not turn.
+    """
     time, _, own = turn_of_own_ship()
     time, own = time[::5], own[::5]  # marks are 10 s apart
     kept, shape = np.exp(-10.0 / MEMORY), (400, len(time))
     off = WANDERING * np.random.default_rng(8).standard_normal(shape)
     for k in range(1, len(time)):
         off[:, k] = kept * off[:, k - 1] + np.sqrt(1.0 - kept**2) * off[:, k]
-    x, y = (np.array([3000.0, 4000.0]) - own).T
+    course = np.where(time < 1000.0, 0.0, turn)
+    way = 5.0 * 10.0 * np.cumsum([np.cos(course), np.sin(course)], axis=1).T
+    x, y = (np.array(PLACE) + (way if turn else 0.0) - own).T
+    off += noise * np.random.default_rng(9).standard_normal(shape)
     return legs_of(
         PastMarks(
             np.broadcast_to(time, shape), np.arctan2(y, x) + off, np.full(shape, SD**-2),
@@ -65,6 +74,24 @@ def test_verdict_stands_headings_that_wander(factor: float, few: float, most: fl
     assert few <= as_set.observable.mean() <= most
     as_told = judge(best, legs, sure, heading_sd=WANDERING)
     assert few <= as_told.observable.mean() <= most
+
+
+def test_heading_that_wanders_makes_no_bend() -> None:
+    """It is taken for what it is, and the range has its true sd."""
+    legs = misheard(noise=SD)
+    found = explain(legs, RangingConfig(relative_sd=0.3), heading_sd=WANDERING)
+    assert found.observable.mean() > 0.95
+    off = found.state - [*PLACE, 0.0, 0.0]
+    square = np.einsum('tx,txy,ty->t', off, np.linalg.inv(found.covariance), off)
+    assert square[found.observable].mean() == pytest.approx(4.0, abs=0.4)
+
+
+@pytest.mark.parametrize('turn', [40.0, 90.0, 170.0])  # the last two: farthest fits best
+def test_heading_that_may_be_wrong_hides_no_turn(turn: float) -> None:
+    """A contact that turns far is on no straight course, whatever the heading does."""
+    legs = misheard(noise=SD, turn=turn * DEGREE)
+    found = explain(legs, RangingConfig(), heading_sd=WANDERING)
+    assert found.bent.mean() > 0.95
 
 
 def test_compass_that_deviates_makes_no_wrong_ranges() -> None:
