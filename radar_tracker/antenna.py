@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from radar_tracker.gaps import is_missing, STAMPS
-from radar_tracker.rotation import find_rate, IN_STEP, PERIODS, refine_rate
+from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, worth_looking
 from radar_tracker.sweep import Beam, Sweep
 from tracking_core.batches import Floats, NO_GAPS, Plots
 from tracking_core.linalg import TURN
@@ -20,7 +20,6 @@ from tracking_core.linalg import TURN
 ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
 _SAMPLES = 400  # plots remembered while learning
-_TURNS = 10.0  # of the slowest antenna; to look for a rate in more is too costly
 _INTERVALS = 5  # between messages, remembered
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _LONGEST = 2.0  # messages or turns that a plot may be off the stamp of its message
@@ -159,7 +158,8 @@ class Antenna:
         self._time = np.concatenate([self._time, time])[-_SAMPLES:]
         self._azimuth = np.concatenate([self._azimuth, azimuth])[-_SAMPLES:]
         if not self._rate:
-            self._forget_old()
+            kept = worth_looking(self._time, self._period)
+            self._time, self._azimuth = self._time[kept], self._azimuth[kept]
         span = np.ptp(self._time) if len(self._time) else 0.0
         if len(self._time) < _FEWEST or span <= 0.0:
             return
@@ -170,12 +170,6 @@ class Antenna:
             self._rate = find_rate(self._time, self._azimuth, self._period, interval)
             if self._rate:
                 self._refine()
-
-    def _forget_old(self) -> None:
-        """Forget plots of too many turns ago to look for a rate by them."""
-        age = self._time.max(initial=-np.inf) - self._time
-        recent = age < _TURNS * max(self._period, PERIODS[1])
-        self._time, self._azimuth = self._time[recent], self._azimuth[recent]
 
     def _is_at_once(self, time: Floats, azimuth: Floats) -> bool:
         """Return whether plots of one moment came from several directions, and count it."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tracking_core.batches import Floats
+from tracking_core.batches import Bools, Floats
 from tracking_core.linalg import TURN, wrap_angle
 
 PERIODS = (0.4, 60.0)  # of antennas [s]
@@ -17,6 +17,7 @@ _RIVAL = 0.05  # resultant length by which a rate must fit better than any quite
 _STEPS = 8  # candidates from the top of a fit to its first zero
 _STILL = 1e-9  # part of the rate by which it may change and still stand
 _AT_ONCE = 2**16  # plots times candidates whose arrays stay near the processor
+_TURNS = 10.0  # of the slowest antenna; to look for a rate in more is too costly
 _NEIGHBOURS = 12  # candidates to either side of one that are no different rate
 
 
@@ -44,6 +45,12 @@ def find_rate(time: Floats, azimuth: Floats, period: float, interval: float) -> 
         fit, least = _plausible(candidates, in_step(time, azimuth, candidates), interval), _NEARLY
     best = int(np.argmax(fit))
     return float(candidates[best]) if fit[best] > least else 0.0
+
+
+def worth_looking(time: Floats, period: float) -> Bools:
+    """Return which plots at these times (M,) [s] are of late enough turns to find a rate by."""
+    age = time.max(initial=-np.inf) - time
+    return np.asarray(age < _TURNS * max(period, PERIODS[1]))
 
 
 def refine_rate(time: Floats, azimuth: Floats, rate: float) -> float:
