@@ -193,3 +193,21 @@ def test_report_command_refuses_plots_that_are_not_there(
     assert main([tracks, '--plots', tracks, '--output', str(page)]) == 1
     assert 'has no topic /plots; it has /radar_tracker' in capsys.readouterr().err
     assert not page.exists()
+
+
+def test_report_command_takes_the_rules_of_one_sensor(
+    replayed: Path, cut_bag: Callable[[int], Path], tmp_path: Path
+) -> None:
+    """The bag says that its tracks are a radar's, so plots:= is known without --sensor."""
+    with open_bag(cut_bag(40)) as bag, BagWriter(tmp_path / 'own_names') as out:
+        for connection, time, raw in bag.messages():
+            out.write_raw(f'/mast{connection.topic}', connection.msgtype, raw, time)
+    names = ['--remap', 'plots:=/mast/plots', '--remap', 'truth:=/mast/truth']
+    bags = ['--plots', str(tmp_path / 'own_names'), '--truth', str(tmp_path / 'own_names')]
+    page = tmp_path / 'page.html'
+    assert main([str(replayed / 'tracks'), *bags, *names, '--output', str(page)]) == 0
+    same = tmp_path / 'same.html'
+    bags = ['--plots', str(cut_bag(40)), '--truth', str(cut_bag(40))]
+    assert main([str(replayed / 'tracks'), *bags, '--output', str(same)]) == 0
+    for part in ('plots', 'truth'):
+        assert content_of(page.read_text())[part] == content_of(same.read_text())[part] != {}

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -93,15 +93,14 @@ def read_tracks(
 
 def find_sensor(bag: Path | str, rules: Sequence[str], sensor: str | None) -> tuple[str, Topics]:
     """Return which sensor's tracks a bag has, and the topics."""
-    kinds = SENSORS if sensor is None else {sensor: SENSORS[sensor]}
-    named = {kind: Topics.remapped(rules, s) for kind, s in kinds.items()}
+    named = _topics_of_sensors(rules, SENSORS if sensor is None else (sensor,))
     with open_bag(bag) as reader:
-        there = {c.topic: c for c in reader.connections}
+        there = {c.topic: c for c in reader.connections if c.msgtype == POINT_CLOUD}
         fits = {kind: topics for kind, topics in named.items() if topics.tracks in there}
         if not fits:
-            wanted = ' or '.join(topics.tracks for topics in named.values())
+            wanted = ' or '.join(dict.fromkeys(topics.tracks for topics in named.values()))
             raise BadBag(
-                f'{bag} has no topic {wanted}; it has {inventory(reader)}. '
+                f'{bag} has no topic {wanted} of type {POINT_CLOUD}; it has {inventory(reader)}. '
                 'Say which are the tracks with --remap tracks:=/TOPIC'
             )
         if len(fits) > 1:  # one topic, given by a rule
@@ -111,6 +110,19 @@ def find_sensor(bag: Path | str, rules: Sequence[str], sensor: str | None) -> tu
                 kind = 'sonar' if 'bearing' in {f.name for f in msg.fields} else 'radar'
                 return kind, fits[kind]
     return next(iter(fits.items()))
+
+
+def _topics_of_sensors(rules: Sequence[str], kinds: Iterable[str]) -> dict[str, Topics]:
+    """Return the topics of each sensor that knows all names in the rules; BadBag if none does."""
+    named, refused = {}, []
+    for kind in kinds:
+        try:
+            named[kind] = Topics.remapped(rules, SENSORS[kind])
+        except BadBag as error:  # plots:= is of a radar, bearings:= of a sonar
+            refused.append(error)
+    if not named:
+        raise refused[0]
+    return named
 
 
 def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
