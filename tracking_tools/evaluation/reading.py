@@ -26,7 +26,7 @@ from tracking_tools.evaluation.rows import (
 )
 from tracking_tools.evaluation.truths import bearings_of, positions_of, ranges_of
 from tracking_tools.own_ship import read_platform
-from tracking_tools.replay_topics import inventory, Topics
+from tracking_tools.replay_topics import check_named, check_type_of, inventory, Topics
 from tracking_tools.scene import choose, frame_of, read_rows, table_rows
 from tracking_tools.sensors import SENSORS
 
@@ -76,6 +76,9 @@ def read_tracks(
     _check_overlap(stamps, real['time'], tracks, truth)
     ranges = None
     if kind == 'sonar':
+        with open_bag(truth) as bag:
+            check_type_of('ownship', bag, topics, truth)
+            check_named(bag, topics, truth, ('ownship',))
         platform = read_platform(truth, topics.ownship)
         told, ranges = bearings_of(real, platform, turning), ranges_of(real, platform)
     else:
