@@ -19,7 +19,7 @@ from tracking_tools.evaluation.options import yardstick_of
 from tracking_tools.parameter_file import configure, read_parameter_file
 from tracking_tools.replay_topics import Topics
 from tracking_tools.sensors import SENSORS
-from tracking_tools.stopping import STOPPED
+from tracking_tools.stopping import stoppable, STOPPED
 from tracking_tools.sweeping.crew import Crew, crew_of, RunFailed, SweepFailed
 from tracking_tools.sweeping.options import sweep_parser
 from tracking_tools.sweeping.store import Figures, Store, write_whole
@@ -88,6 +88,7 @@ def _whole(store: Store, task: Task) -> Figures:
     return figures
 
 
+@stoppable('sweep')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = sweep_parser()

@@ -14,8 +14,10 @@ from tracking_tools.ais.sentences import read_positions
 from tracking_tools.feeds.command import Format, origin_option, run
 from tracking_tools.feeds.feed import Read
 from tracking_tools.feeds.sources import lines_of_file
+from tracking_tools.stopping import stoppable
 
 
+@stoppable('ais')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     return run(AIS, arguments)

@@ -15,8 +15,10 @@ from tracking_tools.feeds.command import Format, origin_option, run
 from tracking_tools.feeds.feed import Read
 from tracking_tools.feeds.sources import lines_of_file
 from tracking_tools.nmea.sentences import read_sentences
+from tracking_tools.stopping import stoppable
 
 
+@stoppable('nmea')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     return run(NMEA, arguments)
