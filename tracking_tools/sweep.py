@@ -110,25 +110,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (SweepFailed, OSError) as error:
         print(f'sweep: {error}', file=sys.stderr)
         return 1
-    if cases:
-        _report(cases, chosen)
-    for why in failed:
+    undrawn = _report(cases, chosen) if cases else []
+    for why in [*failed, *undrawn]:
         print(f'sweep: {why}', file=sys.stderr)
     if failed:
         print(f'sweep: {len(failed)} of {len(planned)} runs failed; the same command tries them '
               'again', file=sys.stderr)  # fmt: skip
-    return int(bool(failed))
+    return int(bool(failed or undrawn))
 
 
-def _report(cases: list[Case], chosen: argparse.Namespace) -> None:
+def _report(cases: list[Case], chosen: argparse.Namespace) -> list[str]:
+    """Keep, print and draw what came out; return why there is no picture, if there is none."""
     text = to_text(cases)
     write_whole(chosen.output / 'summary.json', to_json(cases))
     write_whole(chosen.output / 'summary.txt', text + '\n')
-    if chosen.picture is not None:
-        pictures = import_module('tracking_tools.sweeping.picture')  # matplotlib takes long
+    print(text)
+    if chosen.picture is None:
+        return []
+    pictures = import_module('tracking_tools.sweeping.picture')  # matplotlib takes long
+    try:
         chosen.picture.parent.mkdir(parents=True, exist_ok=True)
         pictures.draw_sweep(cases, chosen.picture, chosen.figure)
-    print(text)
+    except OSError as error:
+        return [f'no picture: {error}']
+    return []
 
 
 def _plan(chosen: argparse.Namespace) -> Planned:
