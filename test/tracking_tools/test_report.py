@@ -20,6 +20,7 @@ pytest.importorskip('bokeh', reason='bokeh (extra report) is not installed')
 
 from msg_adapters.message_types import rosbags_types
 from tracking_tools.bags import BagWriter, open_bag
+from tracking_tools.evaluate import main as evaluate_main
 from tracking_tools.replay import main as replay_main
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report.columns import DARK, ellipses, encode, GREEN, lights, RED
@@ -211,3 +212,21 @@ def test_report_command_takes_the_rules_of_one_sensor(
     assert main([str(replayed / 'tracks'), *bags, '--output', str(same)]) == 0
     for part in ('plots', 'truth'):
         assert content_of(page.read_text())[part] == content_of(same.read_text())[part] != {}
+
+
+def test_page_has_the_figures_of_evaluate(
+    replayed: Path, cut_bag: Callable[[int], Path], tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """Judged with the same yardstick, of which the page says the match radius."""
+    given = [str(replayed / 'tracks'), '--truth', str(cut_bag(40)), '--radius', '200']
+    given += ['--cutoff', '300', '--turning', '2']
+    assert evaluate_main(given) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert main([*given, '--output', str(tmp_path / 'page.html')]) == 0
+    html = (tmp_path / 'page.html').read_text()
+    assert f'<p>{told[0]}</p>' in html
+    assert 'matched within 200.0 m' in told[0]
+    cells = [' '.join(row) for row in re.findall('<td>(.*?)</td><td>(.*?)</td><td>(.*?)<', html)]
+    table = told[told.index('') + 1 : told.index('', 2)]
+    assert [' '.join(line.split()) for line in table] == [cell.strip() for cell in cells[:17]]
