@@ -19,8 +19,10 @@ from rosbags.typesys import get_typestore, Stores
 pytest.importorskip('bokeh', reason='bokeh (extra report) is not installed')
 
 from msg_adapters.message_types import rosbags_types
+from msg_adapters.table import from_columns, to_columns
 from tracking_tools.bags import BagWriter, open_bag
 from tracking_tools.evaluate import main as evaluate_main
+from tracking_tools.evaluation.rows import NEEDED
 from tracking_tools.replay import main as replay_main
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report.columns import DARK, ellipses, encode, GREEN, lights, RED
@@ -230,3 +232,21 @@ def test_page_has_the_figures_of_evaluate(
     cells = [' '.join(row) for row in re.findall('<td>(.*?)</td><td>(.*?)</td><td>(.*?)<', html)]
     table = told[told.index('') + 1 : told.index('', 2)]
     assert [' '.join(line.split()) for line in table] == [cell.strip() for cell in cells[:17]]
+
+
+def test_report_command_takes_a_table_with_the_least_columns(
+    replayed: Path, messages: Any, tmp_path: Path
+) -> None:
+    """Of a tracker that tells neither modes nor existence; what is not known is not shown."""
+    with BagWriter(tmp_path / 'bare') as out:
+        for time, msg in messages(replayed / 'tracks', '/radar_tracker/tracks'):
+            table = to_columns(msg, 1000)
+            columns = {name: table[name] for name in NEEDED['radar']}
+            bare = from_columns(columns, time * 1e-9, 'radar', rosbags_types())
+            out.write('/radar_tracker/tracks', bare, time)
+    page = tmp_path / 'page.html'
+    assert main([str(tmp_path / 'bare'), '--output', str(page)]) == 0
+    full = content_of((replayed / 'new' / 'page.html').read_text())['tracks']
+    assert (
+        columns_of(content_of(page.read_text())['tracks'])['x'].size == columns_of(full)['x'].size
+    )

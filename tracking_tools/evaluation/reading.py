@@ -13,13 +13,13 @@ import numpy as np
 
 from msg_adapters.message_types import seconds
 from msg_adapters.table import Columns
-from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Floats
 from tracking_tools.bags import BadBag, open_bag, POINT_CLOUD
 from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.evaluation.rows import (
     bearing_rows,
     has_heights,
+    judged_rows,
     NEEDED,
     no_rows,
     position_rows,
@@ -70,7 +70,7 @@ def read_tracks(
     kind: str, topics: Topics, tracks: Path | str, truth: Path | str, turning: float
 ) -> Recorded:
     """Return what `read_recorded` returns, where the sensor and its topics are known."""
-    table, stamps = _read_tracks(tracks, topics, NEEDED[kind])
+    table, stamps = _read_tracks(tracks, topics, kind)
     real = read_truth(truth, topics.truth, ('id', 'x', 'y'))
     _check_frames(tracks, topics.tracks, truth, topics.truth)
     _check_overlap(stamps, real['time'], tracks, truth)
@@ -148,8 +148,8 @@ def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
     return choose(table, told)
 
 
-def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tuple[Columns, Floats]:
-    """Return the confirmed rows and the stamps of all tables, also of those without rows."""
+def _read_tracks(bag: Path | str, topics: Topics, kind: str) -> tuple[Columns, Floats]:
+    """Return the rows that are judged and the stamps of all tables, also of those without rows."""
     _check_topic(bag, topics.tracks, 'tracks')
     stamps: list[float] = []
 
@@ -160,11 +160,13 @@ def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tupl
     table = read_rows(bag, topics.tracks, convert)
     if not stamps:
         raise BadBag(f'{bag}: {topics.tracks} has no messages')
-    missing = [name for name in needed if table and name not in table]
+    missing = [name for name in NEEDED[kind] if table and name not in table]
     if missing:
         raise BadBag(f'{bag}: {topics.tracks} has no column {", ".join(missing)}')
-    table = table or no_rows(needed)
-    confirmed = choose(table, table['status'] == CONFIRMED)
+    table = table or no_rows(NEEDED[kind])
+    if kind == 'radar' and (shape := table['covariance'].shape[1:]) != (36,):
+        raise BadBag(f'{bag}: covariance of {topics.tracks} must have 36 values, got {shape}')
+    confirmed = choose(table, judged_rows(table, kind))
     order = np.argsort(confirmed['stamp'], kind='stable')
     return choose(confirmed, order), np.unique(stamps)
 
