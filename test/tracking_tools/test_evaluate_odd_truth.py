@@ -175,3 +175,21 @@ def test_covariance_of_another_size_is_refused(write_bag: WriteBag) -> None:
         BadBag, match=r'covariance of /radar_tracker/tracks must have 36 .* \(9,\)'
     ):
         evaluate(bag, write_bag('truth', '/truth', [(0.0, state(0.0))]))
+
+
+@pytest.mark.parametrize(
+    ('number', 'why'), [(211234561.0, '16777216, got 211234560'), (1.5, '1.5')]
+)
+def test_ids_that_a_float_cannot_hold_are_refused(
+    write_bag: WriteBag, number: float, why: str
+) -> None:
+    """Two ships with MMSI in float32 would be one, and the track of the other a false one."""
+    tables = [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)]
+    for _, columns in tables:
+        columns['id'] = np.array([number, number + 6.0], np.float32)
+    tracks = write_bag('tracks', RADAR, tracked())
+    with pytest.raises(BadBag, match=f'ids of the truth are float32 .*{why}'):
+        evaluate(tracks, write_bag('truth', '/truth', tables))
+    for k, (_, columns) in enumerate(tables):
+        columns['id'] = np.array([1.0, 2.0**24], np.float64 if k % 2 else np.float32)
+    perfect(evaluate(tracks, write_bag('exact', '/truth', tables)))
