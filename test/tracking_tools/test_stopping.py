@@ -4,13 +4,18 @@
 
 from importlib import import_module
 import os
+from pathlib import Path
 import subprocess
 import sys
+import time
 from typing import Any
 
 import pytest
 
-from tracking_tools.stopping import STOPPED, UNREAD
+from tracking_tools.stopping import STOPPED, TERMINATED, UNREAD
+
+DEMO = Path(__file__).parents[2] / 'demo' / 'terminal_area'
+PATIENCE = 60.0  # [s]
 
 COMMANDS = [
     ('evaluate', 'evaluate', 'find_sensor', ['BAG', '--truth', 'BAG']),
@@ -56,3 +61,17 @@ def test_command_that_nobody_reads_ends_quietly(unbuffered: str) -> None:
         )
     assert done.stderr == b''
     assert done.returncode == UNREAD
+
+
+def test_terminated_replay_leaves_nothing_behind(tmp_path: Path) -> None:
+    """As by timeout, or where a machine is shut down: half a bag under a hidden name is lost."""
+    words = [str(DEMO), '--sensor', 'radar', '--output', str(tmp_path / 'tracks'), '--quiet']
+    with subprocess.Popen([sys.executable, '-m', 'tracking_tools.replay', *words]) as process:
+        deadline = time.monotonic() + PATIENCE
+        while not list(tmp_path.glob('.tracks.*/*')):
+            assert process.poll() is None
+            assert time.monotonic() < deadline, 'nothing is written in time'
+            time.sleep(0.01)
+        process.terminate()
+        assert process.wait(PATIENCE) == TERMINATED
+    assert list(tmp_path.iterdir()) == []
