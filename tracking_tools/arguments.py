@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentTypeError
+from datetime import datetime
 import math
 from pathlib import Path
 
@@ -18,13 +19,33 @@ def file_to_write(text: str) -> Path:
 
 def positive(text: str) -> float:
     """Return a finite number above 0."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
+    number = _number(text)
     if not 0.0 < number < math.inf:
         raise ArgumentTypeError(f'must be a number above 0, got {text}')
     return number
+
+
+def not_negative(text: str) -> float:
+    """Return a finite number from 0 on."""
+    number = _number(text)
+    if not 0.0 <= number < math.inf:
+        raise ArgumentTypeError(f'must be a number from 0 on, got {text}')
+    return number
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def day(text: str) -> datetime:
+    """Return a day, or a time of it, as ISO 8601 has them."""
+    try:
+        return datetime.fromisoformat(text)
+    except ValueError as error:
+        raise ArgumentTypeError(f'must be a day as 2026-03-01, got {text}: {error}') from error
 
 
 def count(text: str) -> int:

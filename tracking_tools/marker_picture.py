@@ -21,7 +21,7 @@ from rosbags.highlevel import AnyReader
 
 from msg_adapters.message_types import NANOSECONDS
 from tracking_core.batches import Floats
-from tracking_tools.arguments import file_to_write
+from tracking_tools.arguments import file_to_write, positive
 from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.marker_shapes import draw_markers, places
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
@@ -150,10 +150,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     chosen = _parser().parse_args(arguments)
     sensor, log = SENSORS[chosen.sensor], chosen.output.with_suffix('.log')
-    chosen.output.parent.mkdir(parents=True, exist_ok=True)
     try:
+        window = _window(chosen)
+        chosen.output.parent.mkdir(parents=True, exist_ok=True)
         screen = play(chosen.recording, chosen.params, sensor, chosen.until, log)
-        window = None if chosen.window is None else np.array(chosen.window)
         title = f'~/markers of {sensor.node}, as published: {len(screen.markers)} shapes'
         draw(screen.markers.values(), chosen.output, title, window)
     except (BadBag, NodeFailed, OSError, ValueError) as error:
@@ -161,6 +161,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     print(f'{len(screen.markers)} markers of {len(screen.ids())} tracks: {chosen.output}')
     return 0
+
+
+def _window(chosen: argparse.Namespace) -> Floats | None:
+    """Return x, y and width of the closer look [m], None for all; ValueError for none that is."""
+    if chosen.window is None:
+        return None
+    window = np.array(chosen.window)
+    if not (np.isfinite(window).all() and window[2] > 0.0):
+        raise ValueError(
+            '--window must be X Y WIDTH, finite, with a width above 0 m, got '
+            + ' '.join(f'{value:g}' for value in window)
+        )
+    return window
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -172,7 +185,7 @@ def _parser() -> argparse.ArgumentParser:
     add('recording', type=Path, metavar='BAG', help='with plots or bearings')
     add('--sensor', choices=sorted(SENSORS), default='radar', help='default: radar')
     add('--params', type=Path, required=True, metavar='FILE', help='parameters of the node')
-    add('--until', type=float, default=np.inf, metavar='SECONDS', help='of the recording')
+    add('--until', type=positive, default=np.inf, metavar='SECONDS', help='of the recording')
     add('--window', type=float, nargs=3, metavar=('X', 'Y', 'WIDTH'), help='of a closer look [m]')
     add('--output', type=file_to_write, required=True, metavar='PNG', help='picture to write')
     return parser

@@ -27,7 +27,7 @@ from tracking_session.session import Session
 from tracking_tools.arguments import file_to_write
 from tracking_tools.bags import BadBag, BagWriter, open_bag, POINT_CLOUD, UNREADABLE
 from tracking_tools.parameter_file import configure, parse_value, read_parameter_file
-from tracking_tools.replay_topics import check_topics, messages_of, Topics
+from tracking_tools.replay_topics import check_named, check_topics, messages_of, Topics
 from tracking_tools.report import load_page
 from tracking_tools.sensors import SensorKind, SENSORS
 from tracking_tools.stopping import stoppable, STOPPED
@@ -76,6 +76,7 @@ def replay(
     summary, began = Summary(session.counts[sensor.topic]), time.perf_counter()
     with open_bag(recording) as bag:
         check_topics(bag, topics, recording)
+        check_named(bag, topics, recording)
         with BagWriter(output) as out:
             out.announce(topics.tracks, POINT_CLOUD)
             for table, received, taken in _drive(bag, session, topics, quiet):

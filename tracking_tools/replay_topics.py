@@ -107,10 +107,33 @@ def check_topics(bag: AnyReader, topics: Topics, path: Path | str) -> None:
             f'{path}: {topics.plots} is {there[topics.plots]}, expected '
             f'sensor_msgs/msg/PointCloud2 or another type of plots: {error}; it has {has}'
         ) from error
-    for name, expected in TYPES.items():
+    for name in TYPES:
+        check_type_of(name, bag, topics, path)
+
+
+def check_type_of(name: str, bag: AnyReader, topics: Topics, path: Path | str) -> None:
+    """Raise BadBag where one of our topics beside the plots is there with another type."""
+    topic, expected = getattr(topics, name), TYPES[name]
+    for connection in bag.connections:
+        if connection.topic == topic and connection.msgtype != expected:
+            raise BadBag(
+                f'{path}: {topic} is {connection.msgtype}, expected {expected}; '
+                f'it has {inventory(bag)}'
+            )
+
+
+def check_named(
+    bag: AnyReader, topics: Topics, path: Path | str, names: Iterable[str] = TYPES
+) -> None:
+    """Raise BadBag where a rule leads one of our names to a topic that the bag does not have."""
+    there = {connection.topic for connection in bag.connections}
+    for name in names:
         topic = getattr(topics, name)
-        if there.get(topic, expected) != expected:
-            raise BadBag(f'{path}: {topic} is {there[topic]}, expected {expected}; it has {has}')
+        if topic != getattr(Topics, name) and topic not in there:
+            raise BadBag(
+                f'{path} has no topic {topic}, to which {name} is remapped; '
+                f'it has {inventory(bag)}'
+            )
 
 
 def inventory(bag: AnyReader) -> str:

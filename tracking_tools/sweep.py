@@ -19,7 +19,7 @@ from tracking_tools.evaluation.options import yardstick_of
 from tracking_tools.parameter_file import configure, read_parameter_file
 from tracking_tools.replay_topics import Topics
 from tracking_tools.sensors import SENSORS
-from tracking_tools.stopping import STOPPED
+from tracking_tools.stopping import stoppable, STOPPED
 from tracking_tools.sweeping.crew import Crew, crew_of, RunFailed, SweepFailed
 from tracking_tools.sweeping.options import sweep_parser
 from tracking_tools.sweeping.store import Figures, Store, write_whole
@@ -88,6 +88,7 @@ def _whole(store: Store, task: Task) -> Figures:
     return figures
 
 
+@stoppable('sweep')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = sweep_parser()
@@ -109,25 +110,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (SweepFailed, OSError) as error:
         print(f'sweep: {error}', file=sys.stderr)
         return 1
-    if cases:
-        _report(cases, chosen)
-    for why in failed:
+    undrawn = _report(cases, chosen) if cases else []
+    for why in [*failed, *undrawn]:
         print(f'sweep: {why}', file=sys.stderr)
     if failed:
         print(f'sweep: {len(failed)} of {len(planned)} runs failed; the same command tries them '
               'again', file=sys.stderr)  # fmt: skip
-    return int(bool(failed))
+    return int(bool(failed or undrawn))
 
 
-def _report(cases: list[Case], chosen: argparse.Namespace) -> None:
+def _report(cases: list[Case], chosen: argparse.Namespace) -> list[str]:
+    """Keep, print and draw what came out; return why there is no picture, if there is none."""
     text = to_text(cases)
     write_whole(chosen.output / 'summary.json', to_json(cases))
     write_whole(chosen.output / 'summary.txt', text + '\n')
-    if chosen.picture is not None:
-        pictures = import_module('tracking_tools.sweeping.picture')  # matplotlib takes long
+    print(text)
+    if chosen.picture is None:
+        return []
+    pictures = import_module('tracking_tools.sweeping.picture')  # matplotlib takes long
+    try:
         chosen.picture.parent.mkdir(parents=True, exist_ok=True)
         pictures.draw_sweep(cases, chosen.picture, chosen.figure)
-    print(text)
+    except OSError as error:
+        return [f'no picture: {error}']
+    return []
 
 
 def _plan(chosen: argparse.Namespace) -> Planned:

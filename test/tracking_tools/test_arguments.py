@@ -16,6 +16,12 @@ COMMANDS = [
 ]
 
 
+def nmea(words):
+    """Run the command of a feed."""
+    pytest.importorskip('pynmea2', reason='pynmea2 (extra feeds) is not installed')
+    return import_module('tracking_tools.nmea.__main__').main(words)
+
+
 @pytest.mark.parametrize(('module', 'words'), COMMANDS)
 @pytest.mark.parametrize('directory', ['there', 'not_there/'])
 def test_directory_is_no_file_to_write(module, words, directory, tmp_path, monkeypatch, capsys):
@@ -35,3 +41,29 @@ def test_seed_is_a_whole_number_from_0_on(seed, capsys):
     with pytest.raises(SystemExit):
         import_module('tracking_tools.simulate').main(['turns', '--output', 'x', f'--seed={seed}'])
     assert f'must be a whole number from 0 on, got {seed}' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'words'),
+    [
+        (['--interval', '-1'], 'must be a number from 0 on, got -1'),
+        (['--interval', 'nan'], 'must be a number from 0 on, got nan'),
+        (['--rate', '0'], 'must be a number above 0, got 0'),
+        (['--date', '2026-13-01'], 'must be a day as 2026-03-01, got 2026-13-01'),
+    ],
+)
+def test_option_of_a_feed_that_makes_no_sense_is_told(arguments, words, capsys):
+    """A negative interval would make a message of every sentence."""
+    with pytest.raises(SystemExit, match='2'):
+        nmea(['log.txt', '--bag', 'bag', *arguments])
+    assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('origin', [('122.4', '-37.8'), ('54.5', 'nan')])
+def test_origin_that_is_no_place_is_told(origin, tmp_path, monkeypatch, capsys):
+    """As where latitude and longitude have changed places."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'log.txt').write_text('')
+    assert nmea(['log.txt', '--bag', 'bag', '--origin', *origin]) == 1
+    said = capsys.readouterr().err
+    assert f'LAT in [-90, 90] and LON in [-180, 180] deg, got {" ".join(origin)}' in said

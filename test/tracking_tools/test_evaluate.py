@@ -20,6 +20,8 @@ from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.evaluate import main
 from tracking_tools.evaluation import evaluate, Yardstick
 from tracking_tools.replay import replay
+from tracking_tools.sensors import SENSORS
+from tracking_tools.simulate import main as simulate
 
 SCANS, PERIOD, EPOCH = 40, 4.0, 1000.0
 RADAR, SONAR = '/radar_tracker/tracks', '/sonar_tracker/tracks'
@@ -189,6 +191,32 @@ def test_evaluate_says_what_is_missing(
     assert capsys.readouterr().err.startswith('evaluate: ')
     with pytest.raises(ValueError, match=reason):
         evaluate(bag, bag)
+
+
+def test_evaluate_says_that_the_tracks_are_of_another_type(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A rule that leads to own ship ends in one line, which names what the bag has."""
+    assert simulate(['sonar_crossing', '--duration', '20', '--output', str(tmp_path / 'bag')]) == 0
+    assert main([str(tmp_path / 'bag'), '--remap', 'tracks:=/ownship']) == 1
+    assert re.search(
+        r'no topic /ownship of type sensor_msgs/msg/PointCloud2; it has .*Odometry',
+        capsys.readouterr().err,
+    )
+
+
+@pytest.mark.parametrize(
+    ('name', 'why'), [('odm', 'has no topic /odm, to which ownship'), ('bearings', 'expected nav')]
+)
+def test_evaluate_refuses_an_own_ship_that_is_none(
+    name: str, why: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without own ship the truth would be seen from the origin, and good tracks be called bad."""
+    heard, found = str(tmp_path / 'heard'), str(tmp_path / 'found')
+    assert simulate(['sonar_crossing', '--duration', '200', '--output', heard]) == 0
+    replay(heard, found, quiet=True, sensor=SENSORS['sonar'])
+    assert main([found, '--truth', heard, '--remap', f'ownship:=/{name}']) == 1
+    assert why in capsys.readouterr().err
 
 
 @pytest.mark.parametrize('tables', [{0: {}}, {0: {5: (0.0, 0.0)}}])

@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Check that perfect tracks are judged perfect, whatever the truth leaves out."""
+"""Check that tracks are judged as they are, whatever they or the truth leave out."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from tracking_tools.evaluation import evaluate, Judgement, Yardstick
 from tracking_tools.evaluation.text import to_text
 
 PERIOD, SCANS, EPOCH = 4.0, 50, 1000.0
+RADAR = '/radar_tracker/tracks'
 WriteBag = Callable[[str, str, list[tuple[float, Columns]]], Path]
 
 
@@ -130,3 +131,65 @@ def test_radius_may_be_a_whole_number(write_bag: WriteBag) -> None:
     tracks = write_bag('tracks', '/radar_tracker/tracks', tracked())
     found = evaluate(tracks, write_bag('truth', '/truth', tables), Yardstick(radius=50))
     assert_allclose([found.ospa.mean, found.accuracy.rmse], 0.9, atol=1e-3)
+
+
+@pytest.mark.parametrize('value', [0.0, -100.0, np.nan])
+def test_covariance_that_is_none_costs_the_nees_only(write_bag: WriteBag, value: float) -> None:
+    """Of a tracker that does not know it in some rows: those are left out, all else is judged."""
+    tables = [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)]
+    tracks = tracked()
+    for _, columns in tracks[::2]:
+        columns['covariance'] = np.tile((value * np.eye(6)).reshape(1, 36), (2, 1))
+        columns['x'] = columns['x'] + 10.0
+    found = evaluate(write_bag('tracks', RADAR, tracks), write_bag('truth', '/truth', tables))
+    assert found.held.coverage == 1.0
+    assert_allclose(found.accuracy.rmse, np.sqrt(50.0), rtol=1e-3)
+    level = np.isnan(value)  # then compared over the ground
+    assert found.dimensions == (2 if level else 3)
+    assert (found.nees_position.samples, found.nees_state.samples) == (SCANS, SCANS)
+    assert_allclose(found.nees_position.mean, 0.0, atol=1e-6)
+    assert_allclose(found.per_contact[0].accuracy.nees_state, 0.0, atol=1e-6)
+
+
+@pytest.mark.parametrize('name', ['x', 'z', 'vx'])
+def test_row_of_a_track_without_a_number_is_judged_as_far_as_it_goes(
+    write_bag: WriteBag, name: str
+) -> None:
+    """Without a place it is left out, without a height all are compared over the ground."""
+    tables = [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)]
+    tracks = tracked()
+    tracks[9][1][name][0] = np.nan
+    found = evaluate(write_bag('tracks', RADAR, tracks), write_bag('truth', '/truth', tables))
+    assert_allclose(found.held.coverage, 1.0 - (name == 'x') / (2 * SCANS))
+    assert found.dimensions == (2 if name == 'z' else 3)
+    assert_allclose(found.accuracy.rmse, 0.0, atol=1e-3)
+
+
+def test_covariance_of_another_size_is_refused(write_bag: WriteBag) -> None:
+    """Says which, and how many numbers it must have."""
+    tracks = tracked()
+    for _, columns in tracks:
+        columns['covariance'] = np.tile(np.eye(3).reshape(1, 9), (2, 1))
+    bag = write_bag('tracks', RADAR, tracks)
+    with pytest.raises(
+        BadBag, match=r'covariance of /radar_tracker/tracks must have 36 .* \(9,\)'
+    ):
+        evaluate(bag, write_bag('truth', '/truth', [(0.0, state(0.0))]))
+
+
+@pytest.mark.parametrize(
+    ('number', 'why'), [(211234561.0, '16777216, got 211234560'), (1.5, '1.5')]
+)
+def test_ids_that_a_float_cannot_hold_are_refused(
+    write_bag: WriteBag, number: float, why: str
+) -> None:
+    """Two ships with MMSI in float32 would be one, and the track of the other a false one."""
+    tables = [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)]
+    for _, columns in tables:
+        columns['id'] = np.array([number, number + 6.0], np.float32)
+    tracks = write_bag('tracks', RADAR, tracked())
+    with pytest.raises(BadBag, match=f'ids of the truth are float32 .*{why}'):
+        evaluate(tracks, write_bag('truth', '/truth', tables))
+    for k, (_, columns) in enumerate(tables):
+        columns['id'] = np.array([1.0, 2.0**24], np.float64 if k % 2 else np.float32)
+    perfect(evaluate(tracks, write_bag('exact', '/truth', tables)))

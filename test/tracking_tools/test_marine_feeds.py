@@ -270,7 +270,10 @@ def test_file_without_targets_makes_no_bag(tmp_path, capsys):
 
 @pytest.mark.parametrize(
     ('arguments', 'words'),
-    [(['log.txt'], 'only a live feed'), (['udp://127.0.0.1:0'], '--origin LAT LON')],
+    [
+        (['log.txt'], 'only a live feed'),
+        (['udp://127.0.0.1:0'], '--origin LAT LON'),
+    ],
 )
 def test_ais_that_cannot_be_used_is_told(arguments, words, capsys, tmp_path, monkeypatch):
     """No traceback."""

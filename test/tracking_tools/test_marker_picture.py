@@ -84,3 +84,24 @@ def test_recording_that_is_none_is_told(tmp_path, capsys):
     arguments = [str(tmp_path / 'no'), '--params', str(PARAMETERS), '--output']
     assert main([*arguments, str(tmp_path / 'a.png')]) == 1
     assert 'no bag at' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('options', 'why'),
+    [
+        (
+            ['--window', '0', '0', '0'],
+            'must be X Y WIDTH, finite, with a width above 0 m, got 0 0',
+        ),
+        (['--output', 'file/picture.png'], "'file'"),
+    ],
+)
+def test_picture_that_cannot_be_drawn_is_told(options, why, tmp_path, monkeypatch, capsys):
+    """Before the recording is played, in one line."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'file').write_text('')
+    words = ['bag', '--params', str(PARAMETERS), '--output', 'picture.png', *options]
+    assert main(words) == 1
+    said = capsys.readouterr().err
+    assert said.startswith('marker_picture: ')
+    assert why in said

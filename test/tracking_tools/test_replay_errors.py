@@ -63,6 +63,17 @@ def test_replay_says_which_topics_there_are(cut_bag, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize('name', ['ownship', 'acquire', 'truth'])
+def test_rule_that_leads_nowhere_is_refused(cut_bag, tmp_path, capsys, name):
+    """A slip of the pen in the name of own ship would track as if the sensor stood still."""
+    words = [str(cut_bag(TURNS)), '--sensor', 'radar', '--output', str(tmp_path / 'out')]
+    page = ['--report', str(tmp_path / 'page.html')] if name == 'truth' else []
+    assert main([*words, '--remap', f'{name}:=/odm', *page, '--quiet']) == 1
+    said = capsys.readouterr().err
+    assert f'has no topic /odm, to which {name} is remapped; it has /plots (' in said
+    assert not (tmp_path / 'page.html').exists()
+
+
 def test_replay_says_that_a_topic_has_another_type(tmp_path):
     """Plots that are no point clouds are not read at all."""
     with BagWriter(tmp_path / 'odd') as bag:

@@ -19,7 +19,10 @@ from rosbags.typesys import get_typestore, Stores
 pytest.importorskip('bokeh', reason='bokeh (extra report) is not installed')
 
 from msg_adapters.message_types import rosbags_types
+from msg_adapters.table import from_columns, to_columns
 from tracking_tools.bags import BagWriter, open_bag
+from tracking_tools.evaluate import main as evaluate_main
+from tracking_tools.evaluation.rows import NEEDED
 from tracking_tools.replay import main as replay_main
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report.columns import DARK, ellipses, encode, GREEN, lights, RED
@@ -193,3 +196,57 @@ def test_report_command_refuses_plots_that_are_not_there(
     assert main([tracks, '--plots', tracks, '--output', str(page)]) == 1
     assert 'has no topic /plots; it has /radar_tracker' in capsys.readouterr().err
     assert not page.exists()
+
+
+def test_report_command_takes_the_rules_of_one_sensor(
+    replayed: Path, cut_bag: Callable[[int], Path], tmp_path: Path
+) -> None:
+    """The bag says that its tracks are a radar's, so plots:= is known without --sensor."""
+    with open_bag(cut_bag(40)) as bag, BagWriter(tmp_path / 'own_names') as out:
+        for connection, time, raw in bag.messages():
+            out.write_raw(f'/mast{connection.topic}', connection.msgtype, raw, time)
+    names = ['--remap', 'plots:=/mast/plots', '--remap', 'truth:=/mast/truth']
+    bags = ['--plots', str(tmp_path / 'own_names'), '--truth', str(tmp_path / 'own_names')]
+    page = tmp_path / 'page.html'
+    assert main([str(replayed / 'tracks'), *bags, *names, '--output', str(page)]) == 0
+    same = tmp_path / 'same.html'
+    bags = ['--plots', str(cut_bag(40)), '--truth', str(cut_bag(40))]
+    assert main([str(replayed / 'tracks'), *bags, '--output', str(same)]) == 0
+    for part in ('plots', 'truth'):
+        assert content_of(page.read_text())[part] == content_of(same.read_text())[part] != {}
+
+
+def test_page_has_the_figures_of_evaluate(
+    replayed: Path, cut_bag: Callable[[int], Path], tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """Judged with the same yardstick, of which the page says the match radius."""
+    given = [str(replayed / 'tracks'), '--truth', str(cut_bag(40)), '--radius', '200']
+    given += ['--cutoff', '300', '--turning', '2']
+    assert evaluate_main(given) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert main([*given, '--output', str(tmp_path / 'page.html')]) == 0
+    html = (tmp_path / 'page.html').read_text()
+    assert f'<p>{told[0]}</p>' in html
+    assert 'matched within 200.0 m' in told[0]
+    cells = [' '.join(row) for row in re.findall('<td>(.*?)</td><td>(.*?)</td><td>(.*?)<', html)]
+    table = told[told.index('') + 1 : told.index('', 2)]
+    assert [' '.join(line.split()) for line in table] == [cell.strip() for cell in cells[:17]]
+
+
+def test_report_command_takes_a_table_with_the_least_columns(
+    replayed: Path, messages: Any, tmp_path: Path
+) -> None:
+    """Of a tracker that tells neither modes nor existence; what is not known is not shown."""
+    with BagWriter(tmp_path / 'bare') as out:
+        for time, msg in messages(replayed / 'tracks', '/radar_tracker/tracks'):
+            table = to_columns(msg, 1000)
+            columns = {name: table[name] for name in NEEDED['radar']}
+            bare = from_columns(columns, time * 1e-9, 'radar', rosbags_types())
+            out.write('/radar_tracker/tracks', bare, time)
+    page = tmp_path / 'page.html'
+    assert main([str(tmp_path / 'bare'), '--output', str(page)]) == 0
+    full = content_of((replayed / 'new' / 'page.html').read_text())['tracks']
+    assert (
+        columns_of(content_of(page.read_text())['tracks'])['x'].size == columns_of(full)['x'].size
+    )

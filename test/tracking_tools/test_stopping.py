@@ -1,19 +1,31 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""Ctrl-C ends every command with a line and the exit code of an interrupted program."""
+"""Ctrl-C and a closed pipe end every command without a traceback, with the usual exit code."""
 
 from importlib import import_module
+import os
+from pathlib import Path
+import subprocess
+import sys
+import time
 from typing import Any
 
 import pytest
 
-from tracking_tools.stopping import STOPPED
+from tracking_tools.stopping import STOPPED, TERMINATED, UNREAD
+
+DEMO = Path(__file__).parents[2] / 'demo' / 'terminal_area'
+PATIENCE = 60.0  # [s]
 
 COMMANDS = [
     ('evaluate', 'evaluate', 'find_sensor', ['BAG', '--truth', 'BAG']),
     ('report', 'report.command', 'find_sensor', ['BAG', '--output', 'PAGE']),
     ('simulate', 'simulate', 'record', ['terminal', '--output', 'BAG']),
     ('marker_picture', 'marker_picture', 'play', ['BAG', '--params', 'P', '--output', 'PNG']),
+    ('sweep', 'sweep', '_plan', ['crossing', '--output', 'DIR']),
+    ('nmea', 'nmea.__main__', 'run', ['FILE', '--bag', 'BAG']),
+    ('asterix', 'asterix.__main__', 'run', ['FILE', '--bag', 'BAG']),
+    ('ais', 'ais.__main__', 'run', ['udp://127.0.0.1:10110']),
     ('replay', 'replay', 'replay', ['BAG', '--sensor', 'radar', '--output', 'OUT']),
     ('replay', 'replay', 'read_configs', ['BAG', '--sensor', 'radar', '--output', 'OUT']),
 ]
@@ -34,3 +46,32 @@ def test_interrupted_command_says_so(
     monkeypatch.setattr(command, work, interrupt)
     assert command.main(words) == STOPPED
     assert capsys.readouterr().err.startswith(f'{name}: stopped')
+
+
+@pytest.mark.parametrize('unbuffered', ['', '1'])
+def test_command_that_nobody_reads_ends_quietly(unbuffered: str) -> None:
+    """As in evaluate ... | head -1, whether Python writes at once or at the end."""
+    read, write = os.pipe()
+    os.close(read)
+    command = [sys.executable, '-m', 'tracking_tools.simulate', '--list']
+    environment = {**os.environ, 'PYTHONUNBUFFERED': unbuffered}
+    with os.fdopen(write, 'wb') as pipe:
+        done = subprocess.run(
+            command, stdout=pipe, stderr=subprocess.PIPE, env=environment, check=False
+        )
+    assert done.stderr == b''
+    assert done.returncode == UNREAD
+
+
+def test_terminated_replay_leaves_nothing_behind(tmp_path: Path) -> None:
+    """As by timeout, or where a machine is shut down: half a bag under a hidden name is lost."""
+    words = [str(DEMO), '--sensor', 'radar', '--output', str(tmp_path / 'tracks'), '--quiet']
+    with subprocess.Popen([sys.executable, '-m', 'tracking_tools.replay', *words]) as process:
+        deadline = time.monotonic() + PATIENCE
+        while not list(tmp_path.glob('.tracks.*/*')):
+            assert process.poll() is None
+            assert time.monotonic() < deadline, 'nothing is written in time'
+            time.sleep(0.01)
+        process.terminate()
+        assert process.wait(PATIENCE) == TERMINATED
+    assert list(tmp_path.iterdir()) == []

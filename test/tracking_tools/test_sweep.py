@@ -7,6 +7,7 @@ import json
 import math
 from pathlib import Path
 import shutil
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -18,11 +19,12 @@ from tracking_tools.sweeping import crew
 from tracking_tools.sweeping.figures import mean_of, SHOWN
 from tracking_tools.sweeping.store import Store
 from tracking_tools.sweeping.table import Case
-from tracking_tools.sweeping.tasks import settings_of, swept_values, Task
+from tracking_tools.sweeping.tasks import settings_of, source_of, swept_values, Task
 from tracking_tools.sweeping.work import work
 
 CONFIG = Path(__file__).parents[2] / 'config'
 TINY = ('crossing', '--duration', '20', '--jobs', '1', '--quiet')
+MEGABYTE = 2**20
 TWO = ('--runs', '2', '--set', 'sensor.detection_probability=0.7,0.9')
 
 
@@ -187,12 +189,39 @@ def test_sweep_takes_recordings_with_topics_of_their_own(
 def test_sweep_refuses_a_recording_that_is_there_twice(
     cut_bag: Callable[[int], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A copy is the same recording: it would make the interval of the mean too small."""
+    """A copy or its storage file is the same: it would make the interval of the mean too small."""
     bag, copy = cut_bag(6), tmp_path / 'copy'
     shutil.copytree(bag, copy)
-    with pytest.raises(SystemExit, match='2'):
-        main([str(bag), str(copy), '--output', str(tmp_path / 'none')])
-    assert 'are the same recording' in capsys.readouterr().err
+    for same in (copy, bag / 'recording.mcap'):
+        with pytest.raises(SystemExit, match='2'):
+            main([str(bag), str(same), '--output', str(tmp_path / 'none')])
+        assert 'are the same recording' in capsys.readouterr().err
+
+
+def test_source_of_a_large_recording_takes_little_memory(tmp_path: Path) -> None:
+    """It is read piece by piece: a day of radar is larger than most memories."""
+    file = tmp_path / 'large.mcap'
+    with file.open('wb') as content:
+        content.truncate(64 * MEGABYTE)
+    tracemalloc.start()
+    source_of(str(file))
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < 8 * MEGABYTE
+
+
+def test_sweep_without_a_place_for_its_picture_prints_the_table(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What took hours is not lost; the exit code says that something is missing."""
+    (tmp_path / 'file').write_text('')
+    picture = ['--picture', str(tmp_path / 'file' / 'sweep.png')]
+    assert main([*TINY, *picture, '--output', str(tmp_path / 'runs')]) == 1
+    told = capsys.readouterr()
+    assert 'worst runs of' in told.out
+    assert told.err.startswith('sweep: no picture: ')
+    assert main([*TINY, '--picture', str(tmp_path / 'odd.xyz'), '--output', str(tmp_path)]) == 0
+    assert (tmp_path / 'odd.xyz').read_bytes().startswith(b'\x89PNG')
 
 
 def test_sweep_takes_a_scenario_of_a_sonar(

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import os
 from pathlib import Path
+import re
 import signal
 import subprocess
 import sys
@@ -134,3 +135,13 @@ def test_dask_loses_nothing_when_a_worker_dies(alone: dict[str, bytes], tmp_path
         assert main([*command, '--output', str(tmp_path)]) == 0
         killer.join()
     assert results(tmp_path) == alone
+
+
+def test_dask_address_that_is_none_is_told_at_once(tmp_path: Path) -> None:
+    """Without a port there is nobody to wait for; a client of Dask needs a minute to give up."""
+    with running(
+        'tracking_tools.sweep', *TINY, '--dask', 'tcp://127.0.0.1', '--output', str(tmp_path)
+    ) as process:
+        _, said = process.communicate(timeout=PATIENCE / 2.0)
+    assert process.returncode == 1
+    assert re.fullmatch(r'sweep: no Dask scheduler at tcp://127.0.0.1: .*port.*\n', said.decode())

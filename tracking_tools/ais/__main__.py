@@ -11,11 +11,13 @@ from importlib.util import find_spec
 import sys
 
 from tracking_tools.ais.sentences import read_positions
-from tracking_tools.feeds.command import Format, origin_option, run
+from tracking_tools.feeds.command import Format, origin_of, origin_option, run
 from tracking_tools.feeds.feed import Read
 from tracking_tools.feeds.sources import lines_of_file
+from tracking_tools.stopping import stoppable
 
 
+@stoppable('ais')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     return run(AIS, arguments)
@@ -24,9 +26,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _reader(chosen: argparse.Namespace) -> Read:
     if '://' not in chosen.source:
         raise ValueError('a file of AIS has no times: only a live feed can be used')
-    if chosen.origin is None:
+    origin = origin_of(chosen)
+    if origin is None:
         raise ValueError('--origin LAT LON must say where the frame is')
-    return partial(read_positions, origin=tuple(chosen.origin))
+    return partial(read_positions, origin=origin)
 
 
 AIS = Format(

@@ -11,8 +11,10 @@ from typing import Any
 
 from tracking_tools.asterix.blocks import blocks_of_file, is_available, loaded_reader
 from tracking_tools.feeds.command import Format, run
+from tracking_tools.stopping import stoppable
 
 
+@stoppable('asterix')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     return run(ASTERIX, arguments)

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,20 +13,20 @@ import numpy as np
 
 from msg_adapters.message_types import seconds
 from msg_adapters.table import Columns
-from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Floats
 from tracking_tools.bags import BadBag, open_bag, POINT_CLOUD
 from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.evaluation.rows import (
     bearing_rows,
     has_heights,
+    judged_rows,
     NEEDED,
     no_rows,
     position_rows,
 )
 from tracking_tools.evaluation.truths import bearings_of, positions_of, ranges_of
 from tracking_tools.own_ship import read_platform
-from tracking_tools.replay_topics import inventory, Topics
+from tracking_tools.replay_topics import check_named, check_type_of, inventory, Topics
 from tracking_tools.scene import choose, frame_of, read_rows, table_rows
 from tracking_tools.sensors import SENSORS
 
@@ -70,12 +70,15 @@ def read_tracks(
     kind: str, topics: Topics, tracks: Path | str, truth: Path | str, turning: float
 ) -> Recorded:
     """Return what `read_recorded` returns, where the sensor and its topics are known."""
-    table, stamps = _read_tracks(tracks, topics, NEEDED[kind])
+    table, stamps = _read_tracks(tracks, topics, kind)
     real = read_truth(truth, topics.truth, ('id', 'x', 'y'))
     _check_frames(tracks, topics.tracks, truth, topics.truth)
     _check_overlap(stamps, real['time'], tracks, truth)
     ranges = None
     if kind == 'sonar':
+        with open_bag(truth) as bag:
+            check_type_of('ownship', bag, topics, truth)
+            check_named(bag, topics, truth, ('ownship',))
         platform = read_platform(truth, topics.ownship)
         told, ranges = bearings_of(real, platform, turning), ranges_of(real, platform)
     else:
@@ -93,15 +96,14 @@ def read_tracks(
 
 def find_sensor(bag: Path | str, rules: Sequence[str], sensor: str | None) -> tuple[str, Topics]:
     """Return which sensor's tracks a bag has, and the topics."""
-    kinds = SENSORS if sensor is None else {sensor: SENSORS[sensor]}
-    named = {kind: Topics.remapped(rules, s) for kind, s in kinds.items()}
+    named = _topics_of_sensors(rules, SENSORS if sensor is None else (sensor,))
     with open_bag(bag) as reader:
-        there = {c.topic: c for c in reader.connections}
+        there = {c.topic: c for c in reader.connections if c.msgtype == POINT_CLOUD}
         fits = {kind: topics for kind, topics in named.items() if topics.tracks in there}
         if not fits:
-            wanted = ' or '.join(topics.tracks for topics in named.values())
+            wanted = ' or '.join(dict.fromkeys(topics.tracks for topics in named.values()))
             raise BadBag(
-                f'{bag} has no topic {wanted}; it has {inventory(reader)}. '
+                f'{bag} has no topic {wanted} of type {POINT_CLOUD}; it has {inventory(reader)}. '
                 'Say which are the tracks with --remap tracks:=/TOPIC'
             )
         if len(fits) > 1:  # one topic, given by a rule
@@ -111,6 +113,19 @@ def find_sensor(bag: Path | str, rules: Sequence[str], sensor: str | None) -> tu
                 kind = 'sonar' if 'bearing' in {f.name for f in msg.fields} else 'radar'
                 return kind, fits[kind]
     return next(iter(fits.items()))
+
+
+def _topics_of_sensors(rules: Sequence[str], kinds: Iterable[str]) -> dict[str, Topics]:
+    """Return the topics of each sensor that knows all names in the rules; BadBag if none does."""
+    named, refused = {}, []
+    for kind in kinds:
+        try:
+            named[kind] = Topics.remapped(rules, SENSORS[kind])
+        except BadBag as error:  # plots:= is of a radar, bearings:= of a sonar
+            refused.append(error)
+    if not named:
+        raise refused[0]
+    return named
 
 
 def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
@@ -133,8 +148,8 @@ def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
     return choose(table, told)
 
 
-def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tuple[Columns, Floats]:
-    """Return the confirmed rows and the stamps of all tables, also of those without rows."""
+def _read_tracks(bag: Path | str, topics: Topics, kind: str) -> tuple[Columns, Floats]:
+    """Return the rows that are judged and the stamps of all tables, also of those without rows."""
     _check_topic(bag, topics.tracks, 'tracks')
     stamps: list[float] = []
 
@@ -145,11 +160,13 @@ def _read_tracks(bag: Path | str, topics: Topics, needed: Sequence[str]) -> tupl
     table = read_rows(bag, topics.tracks, convert)
     if not stamps:
         raise BadBag(f'{bag}: {topics.tracks} has no messages')
-    missing = [name for name in needed if table and name not in table]
+    missing = [name for name in NEEDED[kind] if table and name not in table]
     if missing:
         raise BadBag(f'{bag}: {topics.tracks} has no column {", ".join(missing)}')
-    table = table or no_rows(needed)
-    confirmed = choose(table, table['status'] == CONFIRMED)
+    table = table or no_rows(NEEDED[kind])
+    if kind == 'radar' and (shape := table['covariance'].shape[1:]) != (36,):
+        raise BadBag(f'{bag}: covariance of {topics.tracks} must have 36 values, got {shape}')
+    confirmed = choose(table, judged_rows(table, kind))
     order = np.argsort(confirmed['stamp'], kind='stable')
     return choose(confirmed, order), np.unique(stamps)
 

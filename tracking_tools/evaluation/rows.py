@@ -9,13 +9,22 @@ from collections.abc import Sequence
 import numpy as np
 
 from msg_adapters.table import Columns
-from tracking_core.batches import Floats
+from msg_adapters.track_rows import CONFIRMED
+from tracking_core.batches import Bools, Floats
 from tracking_tools.scoring import TrackRows
 
 NEEDED = {
     'radar': ('id', 'status', 'x', 'y', 'z', 'vx', 'vy', 'vz', 'covariance'),
     'sonar': ('id', 'status', 'bearing', 'bearing_rate', 'bearing_sd', 'bearing_rate_sd'),
 }
+
+PLACE = {'radar': ('x', 'y'), 'sonar': ('bearing',)}
+
+
+def judged_rows(table: Columns, sensor: str) -> Bools:
+    """Return which rows are compared: of confirmed tracks, with numbers where they are."""
+    known = [np.isfinite(table[name]) for name in PLACE[sensor]]
+    return np.asarray(np.all([table['status'] == CONFIRMED, *known], axis=0))
 
 
 def no_rows(needed: Sequence[str]) -> Columns:
@@ -27,7 +36,7 @@ def no_rows(needed: Sequence[str]) -> Columns:
 def has_heights(table: Columns) -> bool:
     """Return whether the tracks of a radar are in three dimensions."""
     full = table['covariance'].reshape(-1, 6, 6)
-    return len(full) > 0 and bool(np.isfinite(full[:, 2, 2]).all())
+    return len(full) > 0 and bool(np.isfinite([full[:, 2, 2], table['z']]).all())
 
 
 def position_rows(table: Columns, stamps: Floats, d: int) -> TrackRows:

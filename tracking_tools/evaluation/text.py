@@ -40,11 +40,7 @@ def to_text(judgement: Judgement) -> str:
     """Return the figures as a table."""
     unit = UNITS[judgement.sensor]
     lines = [
-        f'{judgement.sensor}: {judgement.scans} scans in {judgement.duration / MINUTE:.1f} min, '
-        f'{judgement.contacts} contacts, {judgement.tracks} confirmed tracks; '
-        f'matched within {unit.far(judgement.radius)}'
-        + (' over the ground' if judgement.dimensions == 2 else ''),
-        *_doubt(judgement, unit),
+        *head(judgement),
         '',
         *(f'{name:<24}{value:>14}  {remark}'.rstrip() for name, value, remark in rows(judgement)),
         '',
@@ -55,6 +51,18 @@ def to_text(judgement: Judgement) -> str:
     if false:
         lines.append(f'false tracks: {", ".join(map(str, false))}')
     return '\n'.join(lines)
+
+
+def head(judgement: Judgement) -> list[str]:
+    """Return what was compared, and a word on a match radius that tells little."""
+    unit = UNITS[judgement.sensor]
+    return [
+        f'{judgement.sensor}: {judgement.scans} scans in {judgement.duration / MINUTE:.1f} min, '
+        f'{judgement.contacts} contacts, {judgement.tracks} confirmed tracks; '
+        f'matched within {unit.far(judgement.radius)}'
+        + (' over the ground' if judgement.dimensions == 2 else ''),
+        *_doubt(judgement, unit),
+    ]
 
 
 def _doubt(judgement: Judgement, unit: Unit) -> Iterator[str]:

@@ -4,11 +4,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from msg_adapters.table import Columns
-from tracking_core.batches import Bools, Floats
+from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.platform import Platform, pose_at
+from tracking_tools.bags import BadBag
 from tracking_tools.highlights import smooth_turn_rate
 from tracking_tools.scene import choose
 from tracking_tools.scoring import Truth
@@ -62,13 +66,26 @@ def _complete(table: Columns) -> Columns:
     """Return the table sorted by contact and time, with all that a truth has."""
     _, once = np.unique(np.stack([table['id'], table['time']]), axis=1, return_index=True)
     table = choose(table, once)  # sorted by contact, then time
-    table = {**table, 'id': table['id'].astype(np.int64)}
+    table = {**table, 'id': _whole(table['id'])}
     nothing = np.full(len(table['id']), np.nan)
     table['z'] = np.nan_to_num(table.get('z', nothing))  # if not all are known, none is compared
     for axis in 'xyz':
         told = table.get(f'v{axis}', nothing)
         table[f'v{axis}'] = np.where(np.isfinite(told), told, _slope(table, axis))
     return table
+
+
+def _whole(ids: NDArray[Any]) -> Ints:
+    """Return ids as whole numbers; BadBag for those that a float has made of others."""
+    if np.issubdtype(ids.dtype, np.floating):
+        most = 2.0 ** (np.finfo(ids.dtype).nmant + 1)
+        wrong = ids[(np.abs(ids) > most) | (ids % 1 != 0)]
+        if len(wrong):
+            raise BadBag(
+                f'ids of the truth are {ids.dtype} and must be whole numbers up to {most:.0f}, '
+                f'got {wrong[0]:.10g}: contacts that differ may have become one; write uint32'
+            )
+    return ids.astype(np.int64)
 
 
 def _slope(table: Columns, axis: str) -> Floats:

@@ -16,6 +16,7 @@ import time
 from typing import Any
 
 from msg_adapters.message_types import rclpy_types, rosbags_types
+from tracking_tools.arguments import day, not_negative, positive
 from tracking_tools.feeds.feed import describe, Feed, Read
 from tracking_tools.feeds.sources import open_udp
 
@@ -97,12 +98,12 @@ def _parser(kind: Format) -> argparse.ArgumentParser:
     add = parser.add_argument
     add('source', metavar='FILE|udp://HOST:PORT', help='a recording, or a UDP feed')
     add('--bag', type=Path, metavar='OUT', help='write a bag instead of publishing')
-    add('--date', type=datetime.fromisoformat, metavar='YYYY-MM-DD', help='day (UTC) on which a '
+    add('--date', type=day, metavar='YYYY-MM-DD', help='day (UTC) on which a '
         'file begins; without it: when it was written')  # fmt: skip
     add('--frame', default='radar', help='frame_id: east, north, up at the sensor')
-    add('--interval', type=float, default=kind.interval, metavar='SECONDS',
+    add('--interval', type=not_negative, default=kind.interval, metavar='SECONDS',
         help='reports so near in time are one message; 0: a datagram or block is one')  # fmt: skip
-    add('--rate', type=float, default=1.0, help='times real time, for a file')
+    add('--rate', type=positive, default=1.0, help='times real time, for a file')
     kind.add_options(add)
     return parser
 
@@ -110,3 +111,16 @@ def _parser(kind: Format) -> argparse.ArgumentParser:
 def origin_option(add: Any) -> None:
     """Add where the sensor is, for formats with geographic positions."""
     add('--origin', type=float, nargs=2, metavar=('LAT', 'LON'), help='of the frame, WGS 84 [deg]')
+
+
+def origin_of(chosen: argparse.Namespace) -> tuple[float, float] | None:
+    """Return where the sensor is [deg], None if it was not said; ValueError for no place."""
+    if chosen.origin is None:
+        return None
+    latitude, longitude = chosen.origin
+    if not (abs(latitude) <= 90.0 and abs(longitude) <= 180.0):
+        raise ValueError(
+            '--origin must be LAT in [-90, 90] and LON in [-180, 180] deg, got '
+            f'{latitude:g} {longitude:g}'
+        )
+    return latitude, longitude

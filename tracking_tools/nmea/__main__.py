@@ -11,12 +11,14 @@ from importlib.util import find_spec
 import sys
 from typing import Any
 
-from tracking_tools.feeds.command import Format, origin_option, run
+from tracking_tools.feeds.command import Format, origin_of, origin_option, run
 from tracking_tools.feeds.feed import Read
 from tracking_tools.feeds.sources import lines_of_file
 from tracking_tools.nmea.sentences import read_sentences
+from tracking_tools.stopping import stoppable
 
 
+@stoppable('nmea')
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     return run(NMEA, arguments)
@@ -28,8 +30,7 @@ def _options(add: Any) -> None:
 
 
 def _reader(chosen: argparse.Namespace) -> Read:
-    origin = None if chosen.origin is None else tuple(chosen.origin)
-    return partial(read_sentences, origin=origin, relative=chosen.relative)
+    return partial(read_sentences, origin=origin_of(chosen), relative=chosen.relative)
 
 
 NMEA = Format(

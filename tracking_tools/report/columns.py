@@ -51,7 +51,7 @@ def track_columns(scene: Scene | BearingScene) -> Columns:
         'existence': _known(table, 'existence_probability'),
         'manoeuvre': _known(table, 'manoeuvre_probability'),
         'nis': _known(table, 'nis'),
-        'coasted': _known(table, 'coasted').astype(np.uint8),
+        'coasted': (_known(table, 'coasted') > 0).astype(np.uint8),
         **{name: table[name] for name in modes_of(table)},
     }
     if isinstance(scene, Scene):

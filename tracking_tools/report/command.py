@@ -12,6 +12,7 @@ import sys
 from rosbags.highlevel import AnyReaderError
 
 from tracking_tools.arguments import file_to_write
+from tracking_tools.evaluation.options import add_yardstick, yardstick_of
 from tracking_tools.evaluation.reading import find_sensor
 from tracking_tools.replay import read_configs
 from tracking_tools.report import load_page
@@ -28,7 +29,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         kind, topics = find_sensor(chosen.tracks, chosen.remap, chosen.sensor)
         configs = read_configs(chosen.params, {}, SENSORS[kind]) if chosen.params else None
         sources = Sources(kind, topics, chosen.tracks, chosen.plots, chosen.truth)
-        load_page().write_page(gather(sources, configs, title=chosen.title), chosen.output)
+        yardstick = yardstick_of(chosen, kind)
+        material = gather(sources, configs, yardstick=yardstick, title=chosen.title)
+        load_page().write_page(material, chosen.output)
     except (ValueError, OSError, AnyReaderError, ModuleNotFoundError) as error:
         print(f'report: {error}', file=sys.stderr)
         return 1
@@ -49,4 +52,5 @@ def _parser() -> argparse.ArgumentParser:
     add('--sensor', choices=SENSORS, help='whose tracks; default: what the bag has')
     add('--remap', action='append', default=[], metavar='FROM:=TO', help='as plots:=/radar/plots')
     add('--title', default='', help='of the page; default: the name of the tracks bag')
+    add_yardstick(parser)
     return parser

@@ -18,7 +18,7 @@ from tracking_tools.bags import BadBag, open_bag, POINT_CLOUD
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
 from tracking_tools.evaluation import judge, Judgement, Yardstick
 from tracking_tools.evaluation.reading import read_tracks
-from tracking_tools.replay_topics import check_topics, DIAGNOSTICS, Topics
+from tracking_tools.replay_topics import check_named, check_topics, DIAGNOSTICS, Topics
 from tracking_tools.scene import read_scene, Scene
 from tracking_tools.sensors import SENSORS
 
@@ -111,6 +111,7 @@ def gather(
 def of_replay(kind: str, topics: Topics, recording: Path, tracks: Path) -> Sources:
     """Return the sources of a recording that was tracked, with its truth if it has one."""
     with open_bag(recording) as bag:
+        check_named(bag, topics, recording, ('truth',))
         tables = {c.topic for c in bag.connections if c.msgtype == POINT_CLOUD}
         truth = recording if topics.truth in tables else None
     return Sources(kind, topics, tracks, recording, truth)

@@ -50,10 +50,10 @@ def own_panels(modes: int, dimensions: int) -> Any:
         third.add_layout(Span(dimension='width', location=chi_square_bound(share, dimensions),
                               line_color=LIGHT_COLOURS[light], line_dash='dotted'))  # fmt: skip
     third.scatter('t', 'nis', source=rows, color='colour', size=4)
-    for figure in (first, second):
+    shown = (first, second, third) if modes > 1 else (first, third)
+    for figure in shown[:-1]:
         _legend(figure)
         figure.xaxis.visible = False
-    shown = (first, second, third) if modes > 1 else (first, third)
     return column(*shown, sizing_mode='stretch_width')
 
 

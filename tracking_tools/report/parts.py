@@ -9,7 +9,7 @@ from html import escape
 
 import numpy as np
 
-from tracking_tools.evaluation.text import rows
+from tracking_tools.evaluation.text import head, rows
 from tracking_tools.evaluation.units import in_words, UNITS
 from tracking_tools.report.material import Material, Setting
 
@@ -20,8 +20,9 @@ def metrics_part(material: Material) -> str:
     """Return the table of the whole, and a place for GOSPA over time."""
     if material.judgement is None:
         return '<p>Without a truth nobody can say how good the tracks are.</p>'
+    said = ''.join(f'<p>{escape(line)}</p>' for line in head(material.judgement))
     body = _table_rows(rows(material.judgement))
-    return f'<table><tbody>{body}</tbody></table><div id="gospa"></div>'
+    return f'{said}<table><tbody>{body}</tbody></table><div id="gospa"></div>'
 
 
 def contacts_part(material: Material) -> str:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracking_core.batches import Bools, Floats
+from tracking_core.linalg import is_positive_definite
 from tracking_tools.scoring.matching import Matches
 from tracking_tools.scoring.records import PlotRows, TrackRows, Truth
 
@@ -79,9 +80,14 @@ def _offset(error: Floats) -> tuple[float, ...]:
 
 def _nees(error: Floats, P: Floats) -> float:
     """Return the mean normalised squared error per dimension."""
-    return float(normalised(error, P).mean() / error.shape[1]) if len(error) else NAN
+    squares = normalised(error, P)
+    squares = squares[np.isfinite(squares)]
+    return float(squares.mean() / error.shape[1]) if len(squares) else NAN
 
 
 def normalised(error: Floats, P: Floats) -> Floats:
-    """Return the squares (N,) of errors (N, n) normalised by covariances (N, n, n)."""
-    return np.asarray((error * np.linalg.solve(P, error[..., None])[..., 0]).sum(axis=1))
+    """Return the squares (N,) of errors (N, n) by covariances (N, n, n); NaN where P is none."""
+    squares, sound = np.full(len(error), NAN), is_positive_definite(P)
+    error, P = error[sound], P[sound]
+    squares[sound] = (error * np.linalg.solve(P, error[..., None])[..., 0]).sum(axis=1)
+    return squares

@@ -149,6 +149,7 @@ def _import_dask() -> Any:
 def _connected(distributed: Any, scheduler: str) -> Iterator[Any]:
     """Provide a client of the scheduler, which has a worker at least."""
     try:
+        distributed.comm.get_address_host_port(scheduler)  # a client of none takes a minute to end
         client = distributed.Client(scheduler, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise SweepFailed(f'no Dask scheduler at {scheduler}: {error}') from error

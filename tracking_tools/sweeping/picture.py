@@ -50,7 +50,7 @@ def draw_sweep(cases: Sequence[Case], path: Path, shown: str = 'gospa') -> None:
         )
         if len(lines) > 1:
             legend(axes, loc='best')
-        figure.savefig(path, dpi=120, metadata={'Software': None})
+        figure.savefig(path, format='png', dpi=120, metadata={'Software': None})
 
 
 def _line(

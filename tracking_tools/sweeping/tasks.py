@@ -21,6 +21,7 @@ from tracking_tools.scenarios.broadcast import broadcast
 from tracking_tools.sensors import SENSORS
 
 Values = Mapping[str, Any]  # of parameters, by dotted name
+PIECE = 2**20  # of a recording that is read at once [bytes]
 
 
 @dataclass(frozen=True)
@@ -88,11 +89,21 @@ def source_of(name: str, duration: float | None = None, truth: Path | None = Non
 
 
 def _digest(bag: Path) -> str:
+    """Return what a recording has in its storage, the same for a bag and its only file."""
     if not bag.exists():
         raise ValueError(f'no recording at {bag}')
     files = sorted(bag.iterdir()) if bag.is_dir() else [bag]
-    parts = [_hash(file.read_bytes()) for file in files if file.is_file()]
+    parts = [_hash_of(file) for file in files if file.is_file() and file.name != 'metadata.yaml']
     return _hash(' '.join(parts).encode())
+
+
+def _hash_of(file: Path) -> str:
+    """Return the hash of a file, which may be larger than the memory."""
+    digest = hashlib.sha256()
+    with file.open('rb') as content:
+        while piece := content.read(PIECE):
+            digest.update(piece)
+    return digest.hexdigest()
 
 
 def swept_values(texts: Sequence[str]) -> dict[str, list[Any]]:
