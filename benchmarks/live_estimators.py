@@ -51,7 +51,8 @@ on, not to the one that is tuned on.
 `held` is the share of the aircraft's scans with a confirmed track within {radius:.0f} m, at least
 {wanted} is wanted; `least` is that of the worst aircraft. Errors are root mean squares; NEES is 1
 where the covariance is right, larger where it promises too much. CPU is that of the whole node
-process per scan, its start taken off; two runs of one estimator differed by up to 2 ms.
+process per scan, its start taken off; two runs of one estimator differed by up to 2.4 ms
+on a machine that others used.
 
 """
 COLUMNS = (

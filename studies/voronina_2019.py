@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.sonar_data import preset
 from studies import v0_pictures as pictures
 from studies.figures import about, at_least, at_most, intervals, table, template, wrapped
 from studies.v0_crossing import OURS, PAPER, RESOLUTION, runs, SEED, segments, Values
@@ -46,18 +47,17 @@ TRACKERS = {
     'Kalman, unresolved marks': KALMAN,
     'modified polar, unresolved marks': OURS,
     'the same, and a mode for turns': TURNING,
-    'modified polar, unresolved marks, limit 25 % too small': {
-        **OURS,
-        'sensor.bearing_resolution': 0.75 * RESOLUTION,
-    },
-    'modified polar, unresolved marks, limit 25 % too large': {
-        **OURS,
-        'sensor.bearing_resolution': 1.25 * RESOLUTION,
-    },
+    'the preset `passive_linear_array`': preset('passive_linear_array'),
+    'one mode, limit 25 % too small': {**OURS, 'sensor.bearing_resolution': 0.75 * RESOLUTION},
+    'one mode, limit 25 % too large': {**OURS, 'sensor.bearing_resolution': 1.25 * RESOLUTION},
 }
 SCENES = ('nominal', 'fluct', *TURNS)
 SURE = 'modified polar, unresolved marks'
-TURNER = 'the same, and a mode for turns'
+IN_WORDS = {  # whose figures the text names, and under which names
+    SURE: '',
+    'the same, and a mode for turns': 'turner ',
+    'the preset `passive_linear_array`': 'preset ',
+}
 
 QUIET_CLAIMS = (
     at_least('tracking time 1', 0.93, 'tracking time (16), stronger', '0.93 to 0.98'),
@@ -95,8 +95,8 @@ def compare(counts: dict[str, int], jobs: int) -> tuple[str, dict[str, float]]:
                 f'| {found["weaker"]:.0%} | {found["swaps"]:.0%} | {found["false"]:.2f} |'
             )
             print(lines[-1], flush=True)
-            if tracker in (SURE, TURNER):
-                who = '' if tracker == SURE else 'turner '
+            if tracker in IN_WORDS:
+                who = IN_WORDS[tracker]
                 ours |= {f'{who}{name} {figure}': value for figure, value in found.items()}
     return '\n'.join(lines), ours
 

@@ -93,6 +93,16 @@ def test_sweep_takes_recordings(
     assert 'as it is' in capsys.readouterr().out
 
 
+def test_sweep_draws_its_lines_along_the_axis(tmp_path: Path) -> None:
+    """Numbers in whatever order give the same picture."""
+    pictures = []
+    for values in ('0.9,0.7,0.95', '0.7,0.9,0.95'):
+        pictures.append(tmp_path / f'{values}.png')
+        given = ('--set', f'gate.probability={values}', '--output', str(tmp_path / 'runs'))
+        assert main([*TINY, '--runs', '2', *given, '--picture', str(pictures[-1])]) == 0
+    assert pictures[0].read_bytes() == pictures[1].read_bytes()
+
+
 def test_evaluate_with_runs_is_a_sweep_without_settings(tmp_path: Path) -> None:
     """Many runs of a scenario, one row."""
     assert evaluate([*TINY, '--runs', '2', '--output', str(tmp_path)]) == 0

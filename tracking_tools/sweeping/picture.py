@@ -57,7 +57,10 @@ def _line(
     axes: Any, cases: Sequence[Case], axis: str, shown: str, label: str | None, colour: str
 ) -> None:
     values = [case.setting.get(axis, 'as it is') for case in cases]
-    if not all(isinstance(value, (int, float)) for value in values):
+    if all(isinstance(value, (int, float)) for value in values):
+        cases = sorted(cases, key=lambda case: case.setting[axis])
+        values = sorted(values)
+    else:
         values = [str(value) for value in values]
     means = [case.means()[shown] for case in cases]
     middle = np.array([m.mean for m in means])
