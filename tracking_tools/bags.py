@@ -7,8 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
-from shutil import rmtree
-from tempfile import mkdtemp
+from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import Any
 
@@ -128,10 +127,10 @@ class BagWriter:
             raise FileExistsError(f'{path} exists already; remove it or choose another name')
         path.parent.mkdir(parents=True, exist_ok=True)
         self._path = path
-        self._workshop = Path(mkdtemp(prefix=f'.{path.name}.', dir=path.parent))
-        self._writer = Writer(
-            self._workshop / _STORAGE, version=9, storage_plugin=StoragePlugin.MCAP
-        )
+        # Goes with the writer at the latest, wherever a signal ends the command.
+        self._workshop = TemporaryDirectory(prefix=f'.{path.name}.', dir=path.parent)
+        self._unfinished = Path(self._workshop.name) / _STORAGE
+        self._writer = Writer(self._unfinished, version=9, storage_plugin=StoragePlugin.MCAP)
         if compress:
             self._writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         self._connections: dict[str, Connection] = {}
@@ -148,8 +147,8 @@ class BagWriter:
     ) -> None:
         self._writer.close()
         if error is None:
-            (self._workshop / _STORAGE).rename(self._path)
-        rmtree(self._workshop)
+            self._unfinished.rename(self._path)
+        self._workshop.cleanup()
 
     def announce(self, topic: str, msgtype: str, qos: Qos | None = None) -> Connection:
         """Add a topic, with the quality of service its publisher offers; names become absolute."""

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from tracking_tools.bags import BagWriter
 from tracking_tools.stopping import STOPPED, TERMINATED, UNREAD
 
 DEMO = Path(__file__).parents[2] / 'demo' / 'terminal_area'
@@ -74,4 +75,13 @@ def test_terminated_replay_leaves_nothing_behind(tmp_path: Path) -> None:
             time.sleep(0.01)
         process.terminate()
         assert process.wait(PATIENCE) == TERMINATED
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_writer_that_a_signal_overtakes_leaves_nothing_behind(tmp_path: Path) -> None:
+    """It may come when the folder is made and before the writer is entered."""
+    writer = BagWriter(tmp_path / 'tracks')
+    assert list(tmp_path.iterdir())
+    with pytest.warns(ResourceWarning, match='cleaning up'):
+        del writer
     assert list(tmp_path.iterdir()) == []
