@@ -45,6 +45,7 @@ class Array:
     heading_late: float = 0.0  # [s]
     towed: float = 0.0  # own ship's heading is told, and the array comes round in so long [s]
     sd_told: float = 1.0  # times the true one
+    turn: float = 0.0  # of each contact at a time of its own, to either side [deg]
     fades: bool = False
     lane: float = 0.0  # marks in a cycle of contacts that nobody can part
 
@@ -106,13 +107,23 @@ def _contacts(rng: Rng, array: Array, time: Floats, own: Floats, heading: Floats
     while len(found) < CONTACTS:
         distance, speed = rng.uniform(*RANGES), rng.uniform(*SPEEDS)
         bearing, course = rng.uniform(-np.pi, np.pi, 2)
-        way = speed * time[:, None] * np.array([np.cos(course), np.sin(course)])
+        way = speed * _way(rng, array, time, course)
         path = distance * np.array([np.cos(bearing), np.sin(bearing)]) + way
         line = path - own
         is_port = wrap_angle(np.arctan2(line[:, 1], line[:, 0]) - heading) > 0.0
         if array.side == 'any' or (is_port == (array.side == 'port')).all():
             found.append(path)
     return np.stack(found, axis=1)
+
+
+def _way(rng: Rng, array: Array, time: Floats, course: float) -> Floats:
+    """Return where a contact of 1 m/s gets to (K, 2)."""
+    way = time[:, None] * np.array([np.cos(course), np.sin(course)])
+    if array.turn:
+        turned = course + array.turn * DEGREE * rng.choice([-1.0, 1.0])
+        later = np.maximum(time - rng.uniform(0.2, 0.9) * DURATION, 0.0)[:, None]
+        way += later * np.array([np.cos(turned) - np.cos(course), np.sin(turned) - np.sin(course)])
+    return way
 
 
 def _hits(rng: Rng, array: Array, time: Floats, audible: Bools) -> Bools:

@@ -68,6 +68,8 @@ CASES: dict[str, tuple[Array, tuple[Values, ...]]] = {
     'hull array': (Array(**HULL), (NOTHING,)),
     'hull array, sd told half': (Array(**HULL, sd_told=0.5), (NOTHING, TIGHT)),
     'hull array, fades': (Array(**HULL, fades=True), (NOTHING, WEAK)),
+    'hull array, contacts turn by 10 deg': (Array(**HULL, turn=10.0), (NOTHING,)),
+    'hull array, contacts turn by 40 deg': (Array(**HULL, turn=40.0), (NOTHING,)),
     'hull array, lane of 3': (Array(**HULL, lane=3.0), (NOTHING,)),
     'hull array, lane of 12': (Array(**HULL, lane=12.0), (NOTHING,)),
 }  # fmt: skip

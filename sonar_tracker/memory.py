@@ -8,7 +8,7 @@ from dataclasses import asdict
 from typing import Any
 
 from sonar_tracker.build import build_setup
-from sonar_tracker.ranging import Courses
+from sonar_tracker.ranging_courses import Courses
 from sonar_tracker.sensor import Sonar
 from sonar_tracker.tracker import SonarTracker
 from tracking_core.tracker import Tracker

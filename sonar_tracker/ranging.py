@@ -17,13 +17,14 @@ import numpy as np
 from sonar_tracker.bearing_history import BearingHistory
 from sonar_tracker.marked import last_marks
 from sonar_tracker.ranging_config import RangingConfig
-from sonar_tracker.ranging_model import legs_of
-from sonar_tracker.ranging_verdict import explain, may_tell
+from sonar_tracker.ranging_courses import Courses, UNKNOWNS
+from sonar_tracker.ranging_fit import fit
+from sonar_tracker.ranging_heading import with_wandering
+from sonar_tracker.ranging_model import Legs, legs_of
+from sonar_tracker.ranging_verdict import judge, may_tell, Verdict
 from tracking_core.batches import Bools, Coverage, Floats, Ints, Tracks
 from tracking_core.linalg import symmetrise
-from tracking_core.rows import take
-
-_UNKNOWNS = 4
+from tracking_core.rows import put, take
 
 
 @dataclass(frozen=True)
@@ -42,24 +43,6 @@ class RangeEstimates:
 
     def __len__(self) -> int:
         return len(self.id)
-
-
-@dataclass(frozen=True)
-class Courses:
-    """What the fits have found, at the time of each track's newest mark that was fitted."""
-
-    time: Floats  # (T,) [s], -inf: not fitted yet
-    state: Floats  # (T, 4) x, y, vx, vy; NaN: not known
-    covariance: Floats  # (T, 4, 4)
-
-    @staticmethod
-    def unknown(tracks: int) -> Courses:
-        """Return courses of which nothing is known."""
-        return Courses(
-            np.full(tracks, -np.inf),
-            np.full((tracks, _UNKNOWNS), np.nan),
-            np.full((tracks, _UNKNOWNS, _UNKNOWNS), np.nan),
-        )
 
 
 class Ranging:
@@ -135,11 +118,30 @@ class Ranging:
         rows, legs = rows[told], take(legs, told)
         if len(rows) == 0:
             return
-        verdict = explain(legs, self.config, heading_sd)
-        self.history.forget_older_half(rows[verdict.bent])
+        bent_before = found.are_bent(legs.time.max())[rows]
+        verdict = self._explain(rows, legs, heading_sd)
+        # Not at the first sign: until others bend too, a wrong heading looks like one's turn.
+        self.history.forget_older_half(rows[verdict.bent & bent_before])
         observable = verdict.observable
         found.state[rows[observable]] = verdict.state[observable]
         found.covariance[rows[observable]] = verdict.covariance[observable]
+
+    def _explain(self, rows: Ints, legs: Legs, heading_sd: float) -> Verdict:
+        """
+        Fit straight courses to the tracks of these rows and judge them.
+
+        First as if the heading were true. Where it is in doubt, marks that no straight course
+        explains are fitted again as those of a heading that wanders as far as a range must stand.
+        """
+        config, limits = self.config, (self.config.range_min, self.config.range_max)
+        verdict = judge(fit(legs, *limits), legs, config, heading_sd)
+        doubted = np.flatnonzero(~verdict.straight)
+        self.courses.straight[rows[verdict.straight]] = legs.time[verdict.straight]
+        self.courses.bent[rows[doubted]] = legs.time[doubted]
+        if len(doubted) == 0 or not self.courses.doubt_heading(legs.time.max()):
+            return verdict
+        legs = with_wandering(take(legs, doubted), config.heading_error(heading_sd))
+        return put(verdict, doubted, judge(fit(legs, *limits), legs, config, heading_sd))
 
     def estimates(self, tracks: Tracks, coverage: Coverage) -> RangeEstimates:
         """Return what is known of every track at its time, seen from where the sensor is."""
@@ -147,9 +149,9 @@ class Ranging:
 
     def at(self, ids: Ints, time: Floats, own: Floats) -> RangeEstimates:
         """Return what is known of these tracks at these times (T,) [s], sensor at (T, 2) [m]."""
-        found = _of(self.courses, self.history.id, ids)
+        found = self.courses.of(self.history.id, ids)
         dt = np.where(np.isfinite(found.time), time - found.time, 0.0)
-        F = np.tile(np.eye(_UNKNOWNS), (len(ids), 1, 1))
+        F = np.tile(np.eye(UNKNOWNS), (len(ids), 1, 1))
         F[:, 0, 2] = F[:, 1, 3] = dt
         state = (F @ found.state[..., None])[..., 0]
         covariance = symmetrise(F @ found.covariance @ np.swapaxes(F, 1, 2))
@@ -169,17 +171,5 @@ class Ranging:
         )  # fmt: skip
 
     def _follow(self, ids: Ints) -> None:
-        self.courses = _of(self.courses, self.history.id, ids)
+        self.courses = self.courses.of(self.history.id, ids)
         self.history.follow(ids)
-
-
-def _of(found: Courses, old: Ints, ids: Ints) -> Courses:
-    """Return the courses of these ids; those that are not among the old ones are unknown."""
-    if np.array_equal(old, ids):
-        return found
-    _, new_rows, old_rows = np.intersect1d(ids, old, return_indices=True)
-    result = Courses.unknown(len(ids))
-    result.time[new_rows] = found.time[old_rows]
-    result.state[new_rows] = found.state[old_rows]
-    result.covariance[new_rows] = found.covariance[old_rows]
-    return result

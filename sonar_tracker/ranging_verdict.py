@@ -10,13 +10,12 @@ import numpy as np
 from scipy.special import chdtrc, ndtr
 
 from sonar_tracker.ranging_config import RangingConfig
-from sonar_tracker.ranging_fit import Fit, fit
-from sonar_tracker.ranging_heading import misheaded, with_wandering
+from sonar_tracker.ranging_fit import Fit
+from sonar_tracker.ranging_heading import misheaded
 from sonar_tracker.ranging_model import courses, distances, Legs
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.chances import TINY
 from tracking_core.linalg import inverse, symmetrise
-from tracking_core.rows import put, take
 
 _UNKNOWNS = 4
 _WORST_CONDITION = 1e10  # of the information; beyond it the inverse is rounding
@@ -40,28 +39,6 @@ def may_tell(legs: Legs, config: RangingConfig) -> Bools:
     """Return whether even the nearest contact's range could be observed (T,)."""
     information = np.einsum('tk,tkx->t', legs.weight, legs.aside**2) * legs.reach**2
     return np.asarray(information * config.relative_sd**2 > config.range_min**2)
-
-
-def explain(legs: Legs, config: RangingConfig, heading_sd: float = 0.0) -> Verdict:
-    """
-    Fit straight courses and judge them: first heard with a true heading, then with a wrong one.
-
-    Marks that no straight course explains are fitted again as those of a heading that wanders as
-    far as a range must stand.
-
-    Parameters
-    ----------
-    legs, config, heading_sd
-        As `judge` wants them.
-
-    """
-    limits = config.range_min, config.range_max
-    verdict = judge(fit(legs, *limits), legs, config, heading_sd)
-    doubted = np.flatnonzero(~verdict.straight)
-    if len(doubted) == 0:
-        return verdict
-    legs = with_wandering(take(legs, doubted), config.heading_error(heading_sd))
-    return put(verdict, doubted, judge(fit(legs, *limits), legs, config, heading_sd))
 
 
 def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0) -> Verdict:

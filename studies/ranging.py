@@ -62,7 +62,9 @@ and Rao's from all {marks} marks; the fit keeps 128 averages of them.
 - **The sd that is told is that of a contact on a straight course.** A contact that turns in the
   same minutes as the own ship can look like a nearer or farther one on a straight course; no
   residual shows it. `ranging.velocity_noise` says how much of this a verdict must stand.
-- A contact that turns later is noticed, but not at once (last table).
+- A contact that turns later is noticed, but not at once (last table). There all contacts turn at
+  once, which is taken for a wrong heading as long as that explains the marks; one that turns among
+  others is noticed sooner.
 
 ## Figures
 

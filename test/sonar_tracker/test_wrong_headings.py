@@ -8,14 +8,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from sonar_tracker.bearing_history import PastMarks
 from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.ranging import Ranging
 from sonar_tracker.ranging_config import RangingConfig
 from sonar_tracker.ranging_fit import fit
+from sonar_tracker.ranging_heading import with_wandering
 from sonar_tracker.ranging_model import Legs, legs_of
-from sonar_tracker.ranging_verdict import explain, judge
+from sonar_tracker.ranging_verdict import judge, Verdict
 from sonar_tracker.tracker import SonarTracker
 from tracking_core.batches import Bearings
 from tracking_core.config import with_values
@@ -76,10 +78,15 @@ def test_verdict_stands_headings_that_wander(factor: float, few: float, most: fl
     assert few <= as_told.observable.mean() <= most
 
 
+def explained_by_heading(legs: Legs) -> Verdict:
+    """Return the verdict on fits that know how far the heading wanders."""
+    legs = with_wandering(legs, WANDERING)
+    return judge(fit(legs, 50.0, 1e5), legs, RangingConfig(), WANDERING)
+
+
 def test_heading_that_wanders_makes_no_bend() -> None:
     """It is taken for what it is, and the range has its true sd."""
-    legs = misheard(noise=SD)
-    found = explain(legs, RangingConfig(relative_sd=0.3), heading_sd=WANDERING)
+    found = explained_by_heading(misheard(noise=SD))
     assert found.observable.mean() > 0.95
     off = found.state - [*PLACE, 0.0, 0.0]
     square = np.einsum('tx,txy,ty->t', off, np.linalg.inv(found.covariance), off)
@@ -89,9 +96,33 @@ def test_heading_that_wanders_makes_no_bend() -> None:
 @pytest.mark.parametrize('turn', [40.0, 90.0, 170.0])  # the last two: farthest fits best
 def test_heading_that_may_be_wrong_hides_no_turn(turn: float) -> None:
     """A contact that turns far is on no straight course, whatever the heading does."""
-    legs = misheard(noise=SD, turn=turn * DEGREE)
-    found = explain(legs, RangingConfig(), heading_sd=WANDERING)
+    found = explained_by_heading(misheard(noise=SD, turn=turn * DEGREE))
     assert found.bent.mean() > 0.95
+
+
+@pytest.mark.parametrize(('wandering', 'turn'), [(0.2, 0.0), (0.0, 20.0), (0.0, 0.0)])
+def test_heading_is_wrong_where_most_contacts_seem_to_turn(wandering: float, turn: float) -> None:
+    """One of six that turns is none of most, and is no reason to doubt the heading."""
+    time, _, own = turn_of_own_ship()
+    rng, contacts = np.random.default_rng(2), 6
+    course = np.where(time < 1000.0, 0.0, turn * DEGREE)
+    way = 5.0 * 2.0 * np.cumsum([np.cos(course), np.sin(course)], axis=1).T
+    line = rng.uniform(3e3, 6e3, (contacts, 1, 2)) - own
+    line[0] += way
+    wander = wandering * DEGREE * lfilter([np.sqrt(2.0 * 2.0 / MEMORY)], [1.0, 2.0 / MEMORY - 1.0],
+                                          rng.standard_normal(len(time)))  # fmt: skip
+    marks = np.arctan2(line[..., 1], line[..., 0]) + wander
+    marks = wrap_angle(marks + SD * rng.standard_normal(marks.shape))
+    ranging, ids = Ranging(RangingConfig()), np.arange(contacts)
+    for k, now in enumerate(time):
+        at, here = np.full(contacts, now), np.tile(own[k], (contacts, 1))
+        ranging.hear(ids, at, marks[:, k], np.full(contacts, SD**-2), here)
+        ranging.fit_in_turn()
+    assert ranging.courses.doubt_heading(time[-1]) == (wandering > 0.0)
+    found = ranging.at(ids, at, here)
+    assert found.observable[1:].mean() > 0.7
+    off = (found.range / np.hypot(*line[:, -1].T) - 1.0)[found.observable]
+    assert (np.abs(off) < 0.3).all()
 
 
 def test_compass_that_deviates_makes_no_wrong_ranges() -> None:
