@@ -111,6 +111,32 @@ def test_estimator_follows_holding_aircraft_with_a_turning_antenna(name: str) ->
     assert tracker.state.report.broken == 0
 
 
+def around(look: int, rng: np.random.Generator) -> Plots:
+    """Six contacts that pass the radar straight at 120 m/s, 90 % seen; 20 false plots."""
+    time, nearest = PERIOD * look, np.linspace(8e3, 28e3, 6)
+    seen, flown = rng.random(6) < 0.9, 120.0 * time
+    azimuth = np.arange(6.0) - 3.0 + np.arctan2(flown, nearest)
+    polar = np.stack([np.hypot(nearest, flown), azimuth], axis=1)[seen]
+    polar += rng.normal(0.0, [50.0, 0.00175], polar.shape)
+    polar = np.concatenate([polar, rng.uniform([1e3, -np.pi], [4e4, np.pi], (20, 2))])
+    return replace(Plots.polar(np.full(len(polar), time), *polar.T), stamp=time)
+
+
+@pytest.mark.parametrize('association', ['jpda_star', 'nearest', 'global_nearest'])
+@every_estimator
+def test_estimator_starts_from_one_plot(name: str, association: str) -> None:
+    """Whatever shares the plots: all contacts are confirmed, though no start knows a velocity."""
+    rng = np.random.default_rng(3)
+    values = {'estimator': name, 'association': association, 'initiation.method': 'one_point',
+              'initiation.speed_max': 300.0, 'motion.horizontal.acceleration_sd': [0.5, 10.0],
+              'scan.assembly': 'snapshot'}  # fmt: skip
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), values))
+    for look in range(25):
+        tracks = tracker.track(around(look, rng))
+    assert tracks.confirmed.sum() == 6
+    assert (tracks.hits[tracks.confirmed] > 12).all()
+
+
 def test_parameters_reach_the_estimators() -> None:
     """Gains, reading, detector, ramp and fuzzy sets of the parameters are those that are used."""
     values = {

@@ -73,6 +73,18 @@ def test_steady_state_settles_at_r_over_one_minus_alpha(one_axis, alpha: float) 
         assert_allclose(S, SD**2 / (1.0 - alpha), rtol=1e-6)
 
 
+@pytest.mark.parametrize('estimator', [AlphaBeta(0.3, 1), ImmAlphaBeta((0.3, 0.7), 1)])
+def test_first_plot_tells_the_velocity_of_a_start_at_rest(one_axis, estimator) -> None:
+    """With a wide prior the filter goes on as from two points, after a miss too."""
+    prior = np.diag([SD**2, 1e4**2])[None]
+    start = estimator.start(np.zeros((1, 2)), prior)
+    for before, dt in ((start, T), (one_axis.look(estimator, start, None), 2.0 * T)):
+        after = one_axis.look(estimator, before, 600.0)
+        assert_allclose(after.mean[0], [[600.0, 600.0 / dt]] * after.mean.shape[1], rtol=1e-3)
+    second = one_axis.look(estimator, one_axis.look(estimator, start, 600.0), 1300.0)
+    assert_allclose(second.mean[0, 0, 0], 1200.0 + 0.3 * 100.0, rtol=2e-3)
+
+
 def test_velocity_gain_counts_the_time_since_the_last_plot(one_axis) -> None:
     """After a miss the velocity is corrected by beta / (2 T)."""
     estimator = AlphaBeta(ALPHA, 1)

@@ -77,7 +77,8 @@ class TwoPoint:
         single = self._from_the_plot_before(single, mixture, off, said.declared, association)
         nu = innovations.innovation[:, 0, : self.axes] * association.probability[:, None]
         mean_nu = sum_by_track(nu, track, len(off))
-        off = (1.0 - alpha)[:, None] * mean_nu + association.miss[:, None] * off
+        moved = single.mean[:, 0, 0::2] - mixture.mean[:, 0, 0::2]
+        off = mean_nu - moved + association.miss[:, None] * off
         return self._filter.with_control(
             single, said.declared.astype(np.float64), np.concatenate([said.memory, off], axis=1)
         )
