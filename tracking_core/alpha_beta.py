@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracking_core.batches import Association, Floats, Innovations, Ints, Mixture
+from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
 from tracking_core.gains import gain_matrix, on_axes, steady_noise
-from tracking_core.kalman import condition, kalman_gain
-from tracking_core.lag import excess_of_innovations, lag_covariance
+from tracking_core.kalman import condition, innovate, kalman_gain
+from tracking_core.lag import excess_of_innovations, lag_covariance, lag_of_range_rates
 from tracking_core.linalg import sum_by_track, symmetrise
 from tracking_core.motion.constant_velocity import ConstantVelocity
 
@@ -88,6 +88,11 @@ class GainFilter:
             covariance=symmetrise(covariance),
             memory=memory,
         )
+
+    def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
+        """Compare the pairs with every mode."""
+        interval = self.interval(mixture)
+        return innovate(mixture, track, lag_of_range_rates(mixture, track, measurement, interval))
 
     def update(
         self,

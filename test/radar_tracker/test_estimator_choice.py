@@ -137,6 +137,42 @@ def test_estimator_starts_from_one_plot(name: str, association: str) -> None:
     assert (tracks.hits[tracks.confirmed] > 12).all()
 
 
+def turned() -> tuple[np.ndarray, np.ndarray]:
+    """Position and velocity (60, 2) of a contact at 150 m/s that turns by 3 deg/s for a minute."""
+    time = np.arange(0.0, 60 * PERIOD, 0.1)
+    heading = np.cumsum(np.where((time >= 80.0) & (time < 140.0), np.radians(3.0), 0.0)) * 0.1
+    velocity = 150.0 * np.stack([np.cos(heading), np.sin(heading)], axis=1)
+    position = [-15e3, 12e3] + np.cumsum(velocity, axis=0) * 0.1
+    return position[::40], velocity[::40]
+
+
+def ids_in_turn(name: str, seed: int, range_rate: bool) -> int:
+    """Return how many confirmed tracks the contact has had; three false plots a look."""
+    rng, ids = np.random.default_rng(seed), set()
+    values = {'estimator': name, 'scan.assembly': 'snapshot', 'initiation.speed_max': 300.0}
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), values))
+    for look, (p, v) in enumerate(zip(*turned(), strict=True)):
+        distance = np.hypot(*p)
+        true = [distance, np.arctan2(p[1], p[0]), v @ p / distance]
+        rows = rng.uniform([1e3, -np.pi, -300.0], [6e4, np.pi, 300.0], (4, 3))
+        rows[0] = true + rng.normal(0.0, [50.0, 0.00175, 2.0])
+        columns = {'range_rate': rows[:, 2]} if range_rate else {}
+        plots = Plots.polar(np.full(4, PERIOD * look), rows[:, 0], rows[:, 1], **columns)
+        tracks = tracker.track(replace(plots, stamp=PERIOD * look))
+        ids |= set(tracks.id[tracks.confirmed].tolist())
+    return len(ids)
+
+
+@pytest.mark.parametrize('name', ['imm_alpha_beta', 'two_point'])
+def test_range_rates_lose_no_contact_that_turns(name: str) -> None:
+    """The gains do not follow range rates, and the gates must not hold the plots to them."""
+    needed = [
+        sum(ids_in_turn(name, seed, range_rate) for seed in range(12))
+        for range_rate in (False, True)
+    ]
+    assert needed[1] <= needed[0]
+
+
 def test_parameters_reach_the_estimators() -> None:
     """Gains, reading, detector, ramp and fuzzy sets of the parameters are those that are used."""
     values = {

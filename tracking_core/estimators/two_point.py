@@ -20,7 +20,6 @@ from tracking_core.batches import (
     Mixture,
 )
 from tracking_core.gain_control import ControlledGain
-from tracking_core.kalman import innovate
 from tracking_core.linalg import sum_by_track
 from tracking_core.manoeuvre_detector import Detector
 
@@ -62,7 +61,7 @@ class TwoPoint:
 
     def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
         """Compare the pairs with the prediction."""
-        return innovate(mixture, track, measurement)
+        return self._filter.gains.innovate(mixture, track, measurement)
 
     def update(
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association
