@@ -202,11 +202,26 @@ def test_parameters_reach_the_estimators() -> None:
     assert fuzzy.rules.conclusion.peaks == (0.1, 0.9)
 
 
+def test_turning_modes_may_be_steadier_than_the_straight_one() -> None:
+    """The quiet mode is the quietest of its kind."""
+    values = {'motion.horizontal.acceleration_sd': [0.5, 0.2, 9.0],
+              'motion.horizontal.turn_rate': [0.0, 0.05, 0.0],
+              'motion.horizontal.sojourn_time': [60.0, 30.0, 9.0]}  # fmt: skip
+    assert with_values(RadarTrackerConfig(), values).motion.horizontal.turn_rate[1] == 0.05
+
+
 @pytest.mark.parametrize(
     ('values', 'match'),
     [
         ({'alpha_beta.alpha': [0.3, 1.0]}, r'alpha_beta.alpha must be in \[0.01, 0.99\]'),
         ({'alpha_beta.alpha': []}, 'must have one value per mode'),
+        (
+            {'alpha_beta.alpha': [0.7, 0.3]},
+            r'alpha must not fall from the quiet .*, got \[0.7, 0.3',
+        ),
+        ({'motion.horizontal.acceleration_sd': [9.0, 1.0]}, 'acceleration_sd must be least in'),
+        ({'motion.vertical.acceleration_sd': [9.0, 1.0]}, 'must be least in the first mode'),
+        ({'motion.horizontal.turn_rate': [0.1, 0.0]}, 'turn_rate must be 0 in the first mode'),
         ({'alpha_beta.covariance': 'joseph'}, 'must be one of steady_state, recursion'),
         ({'alpha_beta.fuzzy.rules': [0, 1]}, 'must have 4 x 4 entries'),
         ({'alpha_beta.fuzzy.gain_peaks': [0.5, 0.2]}, 'must be two or more, rising'),
