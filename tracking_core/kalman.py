@@ -49,9 +49,19 @@ def innovate(mixture: Mixture, track: Ints, measurement: Measurement) -> Innovat
 def from_innovation(
     nu: Floats, S: Floats, cross: Floats, noise: Floats, absent: Ints
 ) -> Innovations:
-    """Return distances and likelihoods of innovations nu (P, J, d) with covariance S."""
+    """
+    Return distances and likelihoods of innovations nu (P, J, d) with covariance S.
+
+    Where S is so large that rounding leaves it singular, the mode tells nothing of its plots.
+    """
     S_inverse, determinant = inverse(S)
     distance = np.einsum('pjd,pjd->pj', nu, np.einsum('pjde,pje->pjd', S_inverse, nu))
+    sound = determinant > 0.0
+    if not sound.all():
+        distance, determinant = (
+            np.where(sound, distance, np.inf),
+            np.where(sound, determinant, 1.0),
+        )
     present = nu.shape[-1] - absent[:, None]
     log_likelihood = -0.5 * (distance + np.log(determinant) + present * _LOG_TWO_PI)
     return Innovations(nu, S, distance, log_likelihood, cross, noise)
