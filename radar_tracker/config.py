@@ -88,8 +88,9 @@ class RadarTrackerConfig:
         5000, unit='1', doc='new tracks are refused beyond', low=1, high=200_000
     )
     max_plots: int = parameter(
-        20_000, unit='1', doc='a message with more rows is refused', low=1, high=1_000_000
-    )
+        20_000, unit='1', low=1, high=1_000_000,
+        doc='a message with more rows is refused, a collected turn with more comes in parts',
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         """Refuse values outside their limits."""

@@ -76,7 +76,7 @@ class AlphaBetaConfig:
 
     alpha: tuple[float, ...] = parameter(
         (0.3, 0.7), unit='1', low=0.01, high=0.99,
-        doc='gain of each mode, the quiet mode first; alpha_beta has the first only',
+        doc='gain of each mode, from the quiet mode up; alpha_beta has the first only',
     )  # fmt: skip
     covariance: str = parameter(
         'steady_state', unit='', choices=READINGS,
@@ -93,3 +93,8 @@ class AlphaBetaConfig:
         validate(self)
         if not self.alpha:
             raise ValueError('AlphaBetaConfig.alpha must have one value per mode, got none')
+        if list(self.alpha) != sorted(self.alpha):
+            raise ValueError(
+                'AlphaBetaConfig.alpha must not fall from the quiet mode to the last, '
+                f'got {list(self.alpha)}'
+            )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from tracking_core.config import parameter, validate
+from tracking_core.config import check_quiet_first, parameter, validate
 
 
 @dataclass(frozen=True)
@@ -14,7 +14,10 @@ class PlaneMotionConfig:
     """Modes of one plane: one value per mode, the quiet mode first."""
 
     acceleration_sd: tuple[float, ...] = parameter(
-        (3.0, 35.0), unit='m/s^2', doc='acceleration noise of each mode', low=1e-6
+        (3.0, 35.0),
+        unit='m/s^2',
+        doc='acceleration noise of each mode, the quiet mode first',
+        low=1e-6,
     )
     sojourn_time: tuple[float, ...] = parameter(
         (89.6, 89.6), unit='s', doc='mean time spent in each mode', low=1e-3
@@ -34,6 +37,14 @@ class PlaneMotionConfig:
                 f'one value per mode, got {len(self.acceleration_sd)}, {len(self.sojourn_time)} '
                 f'and {len(self.turn_rate)}'
             )
+        if self.turn_rate[0] and 0.0 in self.turn_rate:
+            raise ValueError(
+                f'{type(self).__name__}.turn_rate must be 0 in the first mode, the quiet one, '
+                f'got {list(self.turn_rate)}'
+            )
+        alike = [sd for sd, rate in zip(self.acceleration_sd, self.turn_rate, strict=True)
+                 if rate == self.turn_rate[0]]  # fmt: skip
+        check_quiet_first(self, 'acceleration_sd', alike)
 
 
 @dataclass(frozen=True)
@@ -41,7 +52,10 @@ class VerticalMotionConfig:
     """Modes of the vertical plane."""
 
     acceleration_sd: tuple[float, ...] = parameter(
-        (3.0, 25.0), unit='m/s^2', doc='acceleration noise of each mode', low=1e-6
+        (3.0, 25.0),
+        unit='m/s^2',
+        doc='acceleration noise of each mode, the quiet mode first',
+        low=1e-6,
     )
     sojourn_time: tuple[float, ...] = parameter(
         (89.6, 89.6), unit='s', doc='mean time spent in each mode', low=1e-3
@@ -55,6 +69,7 @@ class VerticalMotionConfig:
                 'VerticalMotionConfig: acceleration_sd and sojourn_time must have one value per '
                 f'mode, got {len(self.acceleration_sd)} and {len(self.sojourn_time)}'
             )
+        check_quiet_first(self, 'acceleration_sd')
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,7 @@ class RadarTracker:
         self._forget(next_id=1)
 
     def _forget(self, next_id: int) -> None:
-        scan = self.config.scan
+        scan, most = self.config.scan, self.config.max_plots
         self.antenna = Antenna(
             scan.period,
             full_turns=scan.assembly != 'sector',
@@ -49,7 +49,7 @@ class RadarTracker:
             collects=scan.assembly == 'rotation',
         )
         self.sectors = SectorClock(scan)
-        self.turns = Turns(scan.period) if scan.assembly == 'rotation' else None
+        self.turns = Turns(scan.period, most) if scan.assembly == 'rotation' else None
         self.radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
         self.is_known, self.flat = False, 0  # which radar it is; plots in a row without a height
         self.farthest = 0.0  # plot so far [m]

@@ -22,11 +22,13 @@ class Turns:
     ----------
     period : float
         Of a turn [s], 0: as the antenna is found to turn.
+    most : int
+        Plots of a turn; with stamps that hardly go on it would never end.
 
     """
 
-    def __init__(self, period: float) -> None:
-        self._period = period
+    def __init__(self, period: float, most: int) -> None:
+        self._period, self._most = period, most
         self._plots: Plots | None = None  # of the sectors so far
         self._stamps = np.zeros(0)  # of the last sectors [s]
         self.part = 0.0  # how long that was which was returned last [s], 0: a turn
@@ -35,17 +37,19 @@ class Turns:
         """
         Return the turn that this sector completes, with the stamp of its first, or None.
 
-        Where sectors are missing before this one, those so far are all that comes of their turn.
+        Where sectors are missing before this one, or there are too many plots, those so far are
+        all that comes of their turn, or the first part of it.
         """
         period = self._period or (TURN / abs(rotation_rate) if rotation_rate else 0.0)
         self._stamps = np.append(self._stamps, sector.stamp)[-STAMPS:]
         ahead = float(np.diff(self._stamps[-2:]).sum())  # when this sector will be over
-        if is_missing(self._stamps, period):
+        is_late, before = is_missing(self._stamps, period), self._plots
+        if is_late:
             ahead = usual_step(self._stamps, period)
-            if self._plots is not None:
-                collected, self._plots = self._plots, sector
-                self.part = float(self._stamps[-2]) + ahead - collected.stamp
-                return collected
+        if before is not None and (is_late or len(before) + len(sector) > self._most):
+            self._plots = sector
+            self.part = float(self._stamps[-2]) + ahead - before.stamp
+            return before
         joined = sector if self._plots is None else concatenate(self._plots, sector)
         first = sector.stamp if self._plots is None else self._plots.stamp
         turn = replace(joined, stamp=first)

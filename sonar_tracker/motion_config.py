@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sonar_tracker.range_prior import RANGE_PRIORS
-from tracking_core.config import parameter, validate
+from tracking_core.config import check_quiet_first, parameter, validate
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,7 @@ class MotionConfig:
                 f'mode, got {len(self.bearing_noise)}, {len(self.rate_noise)} and '
                 f'{len(self.sojourn_time)}'
             )
+        check_quiet_first(self, 'rate_noise')
         if self.range_min >= self.range_max:
             raise ValueError(
                 f'MotionConfig.range_min must be below range_max = {self.range_max}, '

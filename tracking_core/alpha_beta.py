@@ -14,15 +14,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracking_core.batches import Association, Floats, Innovations, Ints, Mixture
-from tracking_core.gains import benedict_bordner, on_axes, steady_noise
-from tracking_core.kalman import condition
-from tracking_core.lag import excess_of_innovations, lag_covariance
+from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
+from tracking_core.gains import gain_matrix, on_axes, steady_noise
+from tracking_core.kalman import condition, innovate, kalman_gain
+from tracking_core.lag import excess_of_innovations, lag_covariance, lag_of_range_rates
 from tracking_core.linalg import sum_by_track, symmetrise
 from tracking_core.motion.constant_velocity import ConstantVelocity
 
 READINGS = ('steady_state', 'recursion')
-_INTERVAL = 0  # column of `Mixture.memory`: time since the last plot [s]; then R, row by row
+# Of `Mixture.memory`: time since the last plot [s], chance that the velocity is a prior; R by rows
+_INTERVAL, _UNTOLD, _NOISE = 0, 1, 2
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,9 @@ class GainFilter:
     The covariance is read in one of two ways. `recursion`: measurement noise alone, as the gains
     pass it on. `steady_state`: such process noise is added that the gains `alpha` are Kalman's,
     so that S = R / (1 - alpha) once the filter has settled.
+
+    Gains of a settled filter find a velocity that no plot has told far too late: after a start at
+    rest, with a velocity independent of the position, the first plot has Kalman's gain.
 
     References
     ----------
@@ -50,11 +54,18 @@ class GainFilter:
         if self.reading not in READINGS:
             raise ValueError(f'covariance must be one of {READINGS}, got {self.reading!r}')
 
+    @property
+    def columns(self) -> int:
+        """Columns of memory that the filter itself has; those of a control come after."""
+        return _NOISE + self.axes**2
+
     def start(self, mean: Floats, covariance: Floats, extra: int = 0) -> Mixture:
         """Return new tracks, equal in all modes, with so many extra columns of memory."""
-        T, J, a = len(mean), len(self.alpha), self.axes
-        memory = np.zeros((T, 1 + a * a + extra))
-        memory[:, 1 : 1 + a * a] = covariance[:, 0::2, 0::2].reshape(T, a * a)
+        T, J = len(mean), len(self.alpha)
+        memory = np.zeros((T, self.columns + extra))
+        is_at_rest = (mean[:, 1::2] == 0.0).all(axis=1)
+        memory[:, _UNTOLD] = is_at_rest & (covariance[:, 0::2, 1::2] == 0.0).all(axis=(1, 2))
+        memory[:, _NOISE : self.columns] = covariance[:, 0::2, 0::2].reshape(T, self.axes**2)
         return Mixture(
             mean=np.repeat(mean[:, None], J, axis=1),
             covariance=np.repeat(covariance[:, None], J, axis=1),
@@ -77,6 +88,11 @@ class GainFilter:
             covariance=symmetrise(covariance),
             memory=memory,
         )
+
+    def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
+        """Compare the pairs with every mode."""
+        interval = self.interval(mixture)
+        return innovate(mixture, track, lag_of_range_rates(mixture, track, measurement, interval))
 
     def update(
         self,
@@ -103,9 +119,9 @@ class GainFilter:
         gain = self._gain(alpha, mixture, track, innovations)
         after = condition(mixture, track, innovations, association, gain)
         memory = mixture.memory.copy()
-        memory[:, _INTERVAL] *= association.miss
+        memory[:, [_INTERVAL, _UNTOLD]] *= association.miss[:, None]
         noise = self._heard_noise(mixture, track, innovations, association)
-        memory[:, 1 : 1 + self.axes**2] = noise.reshape(len(memory), self.axes**2)
+        memory[:, _NOISE : self.columns] = noise.reshape(len(memory), self.axes**2)
         return replace(after, memory=memory)
 
     def admit_lag(
@@ -121,14 +137,7 @@ class GainFilter:
         Return the update with what its innovations betray of a lag in the covariance.
 
         With `recursion` that is nothing: there the covariance is that of the plots' noise alone.
-
-        Parameters
-        ----------
-        after, predicted : Mixture
-            Plane after and before the update.
-        track, innovations, association, alpha
-            As in `update`.
-
+        `predicted` is the plane before the update, the others are those of `update`.
         """
         if self.reading == 'recursion' or len(track) == 0:
             return after
@@ -146,7 +155,7 @@ class GainFilter:
 
     def plot_noise(self, mixture: Mixture) -> Floats:
         """Return the covariance of the last plot (T, a, a)."""
-        rows = mixture.memory[:, 1 : 1 + self.axes**2]
+        rows = mixture.memory[:, _NOISE : self.columns]
         return rows.reshape(len(rows), self.axes, self.axes)
 
     def noise_of_pairs(self, mixture: Mixture, track: Ints, innovations: Innovations) -> Floats:
@@ -163,16 +172,11 @@ class GainFilter:
     def _gain(
         self, alpha: Floats, mixture: Mixture, track: Ints, innovations: Innovations
     ) -> Floats:
-        """Return (P, J, n, d): alpha and beta / T on the axes that the plot has, 0 elsewhere."""
+        """Return (P, J, n, d): Kalman's as far as no plot has told the velocity yet."""
         cross = innovations.cross_covariance
-        gain, axis = np.zeros_like(cross), np.arange(self.axes)
-        has = (cross != 0.0).any(axis=2)[:, :, : self.axes]  # (P, J, a)
-        interval = self.interval(mixture)
-        per_second = np.divide(1.0, interval, where=interval > 0.0, out=np.zeros(len(interval)))
-        rate = benedict_bordner(alpha) * per_second[:, None]
-        gain[:, :, 2 * axis, axis] = alpha[track][..., None] * has
-        gain[:, :, 2 * axis + 1, axis] = rate[track][..., None] * has
-        return gain
+        gain = gain_matrix(alpha, self.interval(mixture), track, cross)
+        untold = mixture.memory[track, _UNTOLD, None, None, None]
+        return gain + untold * (kalman_gain(innovations) - gain) if untold.any() else gain
 
     def _heard_noise(
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association

@@ -68,6 +68,16 @@ def validate(config: Any) -> None:
             _check(f'{type(config).__name__}.{f.name}', getattr(config, f.name), f)
 
 
+def check_quiet_first(config: Any, name: str, calm: Collection[float] | None = None) -> None:
+    """Refuse modes of which a later one is quieter than the first; `calm`: compare these only."""
+    values = getattr(config, name)
+    if values and values[0] > min(values if calm is None else calm):
+        raise ValueError(
+            f'{type(config).__name__}.{name} must be least in the first mode, the quiet one, '
+            f'got {list(values)}'
+        )
+
+
 def _check(name: str, value: Any, f: Any) -> None:
     meta = f.metadata
     if meta['choices'] and value not in meta['choices']:

@@ -80,12 +80,12 @@ class ControlledGain:
 
     def control(self, mixture: Mixture) -> Floats:
         """Return what the control remembers (T, extra)."""
-        return mixture.memory[:, 1 + self.axes**2 :]
+        return mixture.memory[:, self.gains.columns :]
 
     def with_control(self, single: Mixture, raised: Floats, columns: Floats) -> Mixture:
         """Return the filter as two modes, the gain `raised` (T,), with the control's memory."""
         memory = single.memory.copy()
-        memory[:, 1 + self.axes**2 :] = columns
+        memory[:, self.gains.columns :] = columns
         return two_modes(replace(single, memory=memory), raised)
 
 

@@ -6,12 +6,42 @@ from __future__ import annotations
 
 import numpy as np
 
-from tracking_core.batches import Floats
+from tracking_core.batches import Floats, Ints
 
 
 def benedict_bordner(alpha: Floats) -> Floats:
     """Return beta = alpha^2 / (2 - alpha) [BENEDICT62]."""
     return np.asarray(alpha * alpha / (2.0 - alpha))
+
+
+def gain_matrix(alpha: Floats, interval: Floats, track: Ints, cross: Floats) -> Floats:
+    """
+    Return alpha and beta / T on the axes that a plot has, 0 elsewhere.
+
+    Parameters
+    ----------
+    alpha : (T, J) array
+        Of the modes.
+    interval : (T,) array
+        Time since the last plot [s]; where it is 0 the velocity is not corrected.
+    track : (P,) array
+        Row of each pair's track.
+    cross : (P, J, n, d) array
+        P H^T; its columns beyond the n / 2 axes have no gain.
+
+    Returns
+    -------
+    (P, J, n, d) array
+
+    """
+    axes = cross.shape[2] // 2
+    gain, axis = np.zeros_like(cross), np.arange(axes)
+    has = (cross != 0.0).any(axis=2)[:, :, :axes]  # (P, J, a)
+    per_second = np.divide(1.0, interval, where=interval > 0.0, out=np.zeros(len(interval)))
+    rate = benedict_bordner(alpha) * per_second[:, None]
+    gain[:, :, 2 * axis, axis] = alpha[track][..., None] * has
+    gain[:, :, 2 * axis + 1, axis] = rate[track][..., None] * has
+    return gain
 
 
 def steady_noise(alpha: float) -> Floats:

@@ -12,7 +12,7 @@ from tracking_core.linalg import inverse, over_modes, sum_by_track, symmetrise
 from tracking_core.rows import take_rows
 
 _LOG_TWO_PI = float(np.log(2.0 * np.pi))
-_ROUNDING = 64 * float(np.finfo(np.float64).eps)  # of the variances before a plot
+_ROUNDING = 64 * float(np.finfo(np.float64).eps)  # of what is subtracted
 
 
 def innovate(mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
@@ -49,9 +49,19 @@ def innovate(mixture: Mixture, track: Ints, measurement: Measurement) -> Innovat
 def from_innovation(
     nu: Floats, S: Floats, cross: Floats, noise: Floats, absent: Ints
 ) -> Innovations:
-    """Return distances and likelihoods of innovations nu (P, J, d) with covariance S."""
+    """
+    Return distances and likelihoods of innovations nu (P, J, d) with covariance S.
+
+    Where S is so large that rounding leaves it singular, the mode tells nothing of its plots.
+    """
     S_inverse, determinant = inverse(S)
     distance = np.einsum('pjd,pjd->pj', nu, np.einsum('pjde,pje->pjd', S_inverse, nu))
+    sound = determinant > 0.0
+    if not sound.all():
+        distance, determinant = (
+            np.where(sound, distance, np.inf),
+            np.where(sound, determinant, 1.0),
+        )
     present = nu.shape[-1] - absent[:, None]
     log_likelihood = -0.5 * (distance + np.log(determinant) + present * _LOG_TWO_PI)
     return Innovations(nu, S, distance, log_likelihood, cross, noise)
@@ -127,10 +137,9 @@ def condition(
     mean_shift = sum_by_track(weighted, track, T)
     covariance = mixture.covariance + sum_by_track(change, track, T)
     covariance -= np.einsum('tjn,tjm->tjnm', mean_shift, mean_shift)
-    # What the subtraction rounded off is not known: so small a part of what was there is left.
-    np.einsum('tjnn->tjn', covariance)[...] += _ROUNDING * np.einsum(
-        'tjnn->tjn', mixture.covariance
-    )
+    # What the subtractions rounded off is not known: so small a part of what was there is left.
+    there = np.einsum('tjnn->tjn', mixture.covariance) + mean_shift**2
+    np.einsum('tjnn->tjn', covariance)[...] += _ROUNDING * there
     total = over_modes(np.add, posterior)[:, None]
     return Mixture(
         mean=mixture.mean + mean_shift,

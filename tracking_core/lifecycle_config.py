@@ -74,7 +74,8 @@ class InitiationConfig:
 
     method: str = parameter(
         'two_point', unit='', choices=('two_point', 'one_point'),
-        doc='from two plots in successive looks, or from one with a velocity prior',
+        doc='from two plots in successive looks, or from one with a velocity prior, whose gates '
+        'are so wide that m_of_n confirms clutter',
     )  # fmt: skip
     speed_max: float = parameter(
         600.0, unit='m/s', doc='fastest contact to start on', low=1e-6, live=True

@@ -47,7 +47,7 @@ def determinant(matrix: Floats) -> Floats:
 
 def inverse(matrix: Floats) -> tuple[Floats, Floats]:
     """
-    Invert symmetric matrices, those of one to three rows in closed form.
+    Invert covariances, those of one to three rows in closed form.
 
     Parameters
     ----------
@@ -57,24 +57,25 @@ def inverse(matrix: Floats) -> tuple[Floats, Floats]:
     Returns
     -------
     inverse : (..., d, d) array
+        0 where the determinant is not positive, as rounding may leave it: it cannot be told.
     determinant : (...,) array
 
     """
     size = matrix.shape[-1]
+    if size > 3:
+        return _inverse_of_large(matrix)
     result = np.empty_like(matrix)
     if size == 1:
         determinant = matrix[..., 0, 0].copy()
-        result[..., 0, 0] = 1.0 / determinant
+        result[..., 0, 0] = 1.0 / _divisor(determinant)
         return result, determinant
     a, b, c = matrix[..., 0, 0], matrix[..., 0, 1], matrix[..., 1, 1]
     if size == 2:
         determinant = a * c - b * b
         result[..., 0, 0], result[..., 1, 1] = c, a
         result[..., 0, 1] = result[..., 1, 0] = -b
-        result /= determinant[..., None, None]
+        result /= _divisor(determinant)[..., None, None]
         return result, determinant
-    if size > 3:
-        return np.asarray(np.linalg.inv(matrix)), np.asarray(np.linalg.det(matrix))
     e, f, g = matrix[..., 0, 2], matrix[..., 1, 2], matrix[..., 2, 2]
     aa, ab, ae = c * g - f * f, e * f - b * g, b * f - c * e
     determinant = a * aa + b * ab + e * ae
@@ -83,8 +84,20 @@ def inverse(matrix: Floats) -> tuple[Floats, Floats]:
     result[..., 0, 1] = result[..., 1, 0] = ab
     result[..., 0, 2] = result[..., 2, 0] = ae
     result[..., 1, 2] = result[..., 2, 1] = b * e - a * f
-    result /= determinant[..., None, None]
+    result /= _divisor(determinant)[..., None, None]
     return result, determinant
+
+
+def _divisor(determinant: Floats) -> Floats:
+    sound = determinant > 0.0
+    return determinant if sound.all() else np.where(sound, determinant, np.inf)
+
+
+def _inverse_of_large(matrix: Floats) -> tuple[Floats, Floats]:
+    determinant = np.asarray(np.linalg.det(matrix))
+    sound = (determinant > 0.0)[..., None, None]
+    inverted = np.linalg.inv(np.where(sound, matrix, np.eye(matrix.shape[-1])))
+    return np.where(sound, inverted, 0.0), determinant
 
 
 def is_positive_definite(matrix: Floats) -> Bools:

@@ -91,8 +91,13 @@ class Odds:
 
 
 def _peak(size: Floats, d: int) -> Floats:
-    """Return the greatest density (K,) of Gaussians in d coordinates, `size` = |covariance|."""
-    return np.asarray(1.0 / np.sqrt((2.0 * np.pi) ** d * size))
+    """
+    Return the greatest density (K,) of Gaussians in d coordinates, `size` = |covariance|.
+
+    A size that rounding leaves at 0 or below is not known, and is no evidence of a contact: 0.
+    """
+    known = np.where(size > 0.0, size, np.inf)
+    return np.asarray(1.0 / np.sqrt((2.0 * np.pi) ** d * known))
 
 
 @lru_cache(maxsize=16)

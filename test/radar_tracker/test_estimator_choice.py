@@ -111,6 +111,68 @@ def test_estimator_follows_holding_aircraft_with_a_turning_antenna(name: str) ->
     assert tracker.state.report.broken == 0
 
 
+def around(look: int, rng: np.random.Generator) -> Plots:
+    """Six contacts that pass the radar straight at 120 m/s, 90 % seen; 20 false plots."""
+    time, nearest = PERIOD * look, np.linspace(8e3, 28e3, 6)
+    seen, flown = rng.random(6) < 0.9, 120.0 * time
+    azimuth = np.arange(6.0) - 3.0 + np.arctan2(flown, nearest)
+    polar = np.stack([np.hypot(nearest, flown), azimuth], axis=1)[seen]
+    polar += rng.normal(0.0, [50.0, 0.00175], polar.shape)
+    polar = np.concatenate([polar, rng.uniform([1e3, -np.pi], [4e4, np.pi], (20, 2))])
+    return replace(Plots.polar(np.full(len(polar), time), *polar.T), stamp=time)
+
+
+@pytest.mark.parametrize('association', ['jpda_star', 'nearest', 'global_nearest'])
+@every_estimator
+def test_estimator_starts_from_one_plot(name: str, association: str) -> None:
+    """Whatever shares the plots: all contacts are confirmed, though no start knows a velocity."""
+    rng = np.random.default_rng(3)
+    values = {'estimator': name, 'association': association, 'initiation.method': 'one_point',
+              'initiation.speed_max': 300.0, 'motion.horizontal.acceleration_sd': [0.5, 10.0],
+              'scan.assembly': 'snapshot'}  # fmt: skip
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), values))
+    for look in range(25):
+        tracks = tracker.track(around(look, rng))
+    assert tracks.confirmed.sum() == 6
+    assert (tracks.hits[tracks.confirmed] > 12).all()
+
+
+def turned() -> tuple[np.ndarray, np.ndarray]:
+    """Position and velocity (60, 2) of a contact at 150 m/s that turns by 3 deg/s for a minute."""
+    time = np.arange(0.0, 60 * PERIOD, 0.1)
+    heading = np.cumsum(np.where((time >= 80.0) & (time < 140.0), np.radians(3.0), 0.0)) * 0.1
+    velocity = 150.0 * np.stack([np.cos(heading), np.sin(heading)], axis=1)
+    position = [-15e3, 12e3] + np.cumsum(velocity, axis=0) * 0.1
+    return position[::40], velocity[::40]
+
+
+def ids_in_turn(name: str, seed: int, range_rate: bool) -> int:
+    """Return how many confirmed tracks the contact has had; three false plots a look."""
+    rng, ids = np.random.default_rng(seed), set()
+    values = {'estimator': name, 'scan.assembly': 'snapshot', 'initiation.speed_max': 300.0}
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), values))
+    for look, (p, v) in enumerate(zip(*turned(), strict=True)):
+        distance = np.hypot(*p)
+        true = [distance, np.arctan2(p[1], p[0]), v @ p / distance]
+        rows = rng.uniform([1e3, -np.pi, -300.0], [6e4, np.pi, 300.0], (4, 3))
+        rows[0] = true + rng.normal(0.0, [50.0, 0.00175, 2.0])
+        columns = {'range_rate': rows[:, 2]} if range_rate else {}
+        plots = Plots.polar(np.full(4, PERIOD * look), rows[:, 0], rows[:, 1], **columns)
+        tracks = tracker.track(replace(plots, stamp=PERIOD * look))
+        ids |= set(tracks.id[tracks.confirmed].tolist())
+    return len(ids)
+
+
+@pytest.mark.parametrize('name', ['imm_alpha_beta', 'two_point'])
+def test_range_rates_lose_no_contact_that_turns(name: str) -> None:
+    """The gains do not follow range rates, and the gates must not hold the plots to them."""
+    needed = [
+        sum(ids_in_turn(name, seed, range_rate) for seed in range(12))
+        for range_rate in (False, True)
+    ]
+    assert needed[1] <= needed[0]
+
+
 def test_parameters_reach_the_estimators() -> None:
     """Gains, reading, detector, ramp and fuzzy sets of the parameters are those that are used."""
     values = {
@@ -140,11 +202,26 @@ def test_parameters_reach_the_estimators() -> None:
     assert fuzzy.rules.conclusion.peaks == (0.1, 0.9)
 
 
+def test_turning_modes_may_be_steadier_than_the_straight_one() -> None:
+    """The quiet mode is the quietest of its kind."""
+    values = {'motion.horizontal.acceleration_sd': [0.5, 0.2, 9.0],
+              'motion.horizontal.turn_rate': [0.0, 0.05, 0.0],
+              'motion.horizontal.sojourn_time': [60.0, 30.0, 9.0]}  # fmt: skip
+    assert with_values(RadarTrackerConfig(), values).motion.horizontal.turn_rate[1] == 0.05
+
+
 @pytest.mark.parametrize(
     ('values', 'match'),
     [
         ({'alpha_beta.alpha': [0.3, 1.0]}, r'alpha_beta.alpha must be in \[0.01, 0.99\]'),
         ({'alpha_beta.alpha': []}, 'must have one value per mode'),
+        (
+            {'alpha_beta.alpha': [0.7, 0.3]},
+            r'alpha must not fall from the quiet .*, got \[0.7, 0.3',
+        ),
+        ({'motion.horizontal.acceleration_sd': [9.0, 1.0]}, 'acceleration_sd must be least in'),
+        ({'motion.vertical.acceleration_sd': [9.0, 1.0]}, 'must be least in the first mode'),
+        ({'motion.horizontal.turn_rate': [0.1, 0.0]}, 'turn_rate must be 0 in the first mode'),
         ({'alpha_beta.covariance': 'joseph'}, 'must be one of steady_state, recursion'),
         ({'alpha_beta.fuzzy.rules': [0, 1]}, 'must have 4 x 4 entries'),
         ({'alpha_beta.fuzzy.gain_peaks': [0.5, 0.2]}, 'must be two or more, rising'),

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sectors that are missing: nobody is missed where the antenna was not followed."""
 
+from dataclasses import replace
 import logging
 
 import numpy as np
@@ -12,6 +13,8 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.gaps import is_missing, usual_step
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
+from radar_tracker.tracker import RadarTracker
+from tracking_core.batches import Plots
 from tracking_core.config import with_values
 
 pytest.importorskip('rosbags')
@@ -21,10 +24,17 @@ STEP = PERIOD / SECTORS
 AZIMUTH = 2.0 * np.pi * (np.arange(24) + 0.5) / 24.0  # of contacts at rest, three in a sector
 
 
+def config_of(**values):
+    """Return parameters of a radar that collects sectors, if not told otherwise."""
+    usual = {'scan.period': PERIOD, 'scan.assembly': 'rotation'}
+    return with_values(RadarTrackerConfig(), {**usual, **values})
+
+
 def session(**values):
     """Return a session that takes sectors."""
-    config = with_values(RadarTrackerConfig(), {'scan.period': PERIOD, **values})
-    return radar_session(config, radar_node_config(), TYPES, logging.getLogger('gaps'))
+    return radar_session(
+        config_of(**values), radar_node_config(), TYPES, logging.getLogger('gaps')
+    )
 
 
 def sector(number, gone=0):
@@ -80,7 +90,7 @@ def test_is_missing_takes_a_place_that_is_silent_twice_for_empty():
 @pytest.mark.parametrize('lost', [1, 3, 6, 12, 20, 36, 44, 60])
 def test_pause_amid_a_collected_turn_ends_no_track(lost):
     """The sectors before it are no turn with those after it, and nobody is missed for it."""
-    radar = session(**{'scan.assembly': 'rotation'})
+    radar = session()
     begin = SECTORS * 10 + 3
     follow(radar, range(begin))
     before = radar.tracks.id.tolist()
@@ -89,6 +99,28 @@ def test_pause_amid_a_collected_turn_ends_no_track(lost):
     follow(radar, range(begin + lost, begin + lost + 3 * SECTORS))
     assert radar.tracks.id.tolist() == before
     assert radar.tracks.misses.max() == 0
+
+
+def test_turn_that_never_ends_takes_no_more_memory():
+    """Stamps go on by a microsecond only: a turn has `max_plots` at most."""
+    turns, kept = RadarTracker(config_of(max_plots=100)).turns, []
+    for number in range(200):
+        time = np.full(7, 1000.0 + 1e-6 * number)
+        plots = replace(Plots.polar(time, np.ones(7), np.ones(7)), stamp=time[0])
+        turn = turns.add(plots, 2.0 * np.pi / PERIOD)
+        kept.append(0 if turn is None else len(turn))
+    assert set(kept) == {0, 98}
+    assert sum(kept) > 1200
+
+
+def test_turns_with_more_plots_than_a_message_may_have_end_no_track():
+    """They come in parts."""
+    radar = session(max_plots=10)
+    follow(radar, range(SECTORS * 6))
+    before = radar.tracks.id.tolist()
+    assert len(before) == len(AZIMUTH)
+    misses = follow(radar, range(SECTORS * 6, SECTORS * 16))
+    assert misses == dict.fromkeys(before, 0)
 
 
 @pytest.mark.parametrize('lost', [1, 2, 4, 6, 7, 8, 12, 20])

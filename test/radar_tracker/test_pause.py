@@ -46,3 +46,34 @@ def test_longer_pauses_end_tracks() -> None:
     after = tracker.track(turn(27)).id
     assert tracker.state.report.silent == len(before)
     assert not np.isin(before, after).any()
+
+
+def look(time: float, rng: np.random.Generator, dimensions: int) -> Plots:
+    """Return plots of three contacts at rest, with range rates."""
+    place = np.array([[2e4, 1e4, 3e3], [-3e4, 2e4, 5e3], [5e3, -4e4, 1e3]])[:, :dimensions]
+    place += rng.normal(0.0, 30.0, place.shape)
+    ground = np.hypot(place[:, 0], place[:, 1])
+    columns = {'range_rate': rng.normal(0.0, 2.0, 3)}
+    if dimensions == 3:
+        columns['elevation'] = np.arctan2(place[:, 2], ground)
+    return Plots.polar(
+        np.full(3, time), np.linalg.norm(place, axis=1), np.arctan2(place[:, 1], place[:, 0]),
+        stamp=time, **columns,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize('estimator', ['markov_jump', 'markov_jump_joint', 'imm_alpha_beta'])
+@pytest.mark.parametrize('dimensions', [2, 3])
+@pytest.mark.parametrize('pause', [1e7, 1e9])
+def test_pause_of_months_is_survived(estimator: str, dimensions: int, pause: float) -> None:
+    """A contact may be anywhere, farther than numbers can tell: no error, and new tracks."""
+    values = {'estimator': estimator, 'scan.assembly': 'snapshot', 'sensor.dimensions': dimensions}
+    tracker, rng = (
+        RadarTracker(with_values(RadarTrackerConfig(), values)),
+        np.random.default_rng(0),
+    )
+    for number in range(24):
+        time = PERIOD * number + pause * (number > 5)
+        tracks = tracker.track(look(time, rng, dimensions))
+    assert tracks.confirmed.sum() == 3
+    assert (tracks.misses[tracks.confirmed] == 0).all()

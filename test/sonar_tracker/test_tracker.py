@@ -267,6 +267,8 @@ def test_second_mode_notices_a_turn_and_follows_it(estimator: str) -> None:
           'motion.rate_noise': [1e-6, 1e-5], 'motion.sojourn_time': [600.0, 60.0]}, 'one mode'),
         ({'association': 'nearest', 'sensor.bearing_resolution': 0.04}, 'must be jpda'),
         ({'motion.bearing_noise': [1e-4, 1e-3]}, 'one value per mode'),
+        ({'motion.bearing_noise': [1e-4, 1e-4], 'motion.rate_noise': [1e-5, 1e-6],
+          'motion.sojourn_time': [60.0, 600.0]}, 'rate_noise must be least in the first mode'),
         ({'motion.range_min': 5000.0, 'motion.range_max': 1000.0}, 'must be below range_max'),
     ],
 )  # fmt: skip

@@ -15,6 +15,7 @@ from tracking_core.estimators import (
     ImmAlphaBeta,
 )
 from tracking_core.gains import noise_gain, steady_covariance, steady_noise
+from tracking_core.measurement import without_absent
 
 T, SD = 5.0, 100.0
 ALPHA, BETA = 0.6, 0.36 / 1.4
@@ -71,6 +72,18 @@ def test_steady_state_settles_at_r_over_one_minus_alpha(one_axis, alpha: float) 
             mixture = one_axis.look(estimator, mixture, 0.0)
         S = estimator.predict(mixture, np.array([T])).covariance[0, :, 0, 0] + SD**2
         assert_allclose(S, SD**2 / (1.0 - alpha), rtol=1e-6)
+
+
+@pytest.mark.parametrize('estimator', [AlphaBeta(0.3, 1), ImmAlphaBeta((0.3, 0.7), 1)])
+def test_first_plot_tells_the_velocity_of_a_start_at_rest(one_axis, estimator) -> None:
+    """With a wide prior the filter goes on as from two points, after a miss too."""
+    prior = np.diag([SD**2, 1e4**2])[None]
+    start = estimator.start(np.zeros((1, 2)), prior)
+    for before, dt in ((start, T), (one_axis.look(estimator, start, None), 2.0 * T)):
+        after = one_axis.look(estimator, before, 600.0)
+        assert_allclose(after.mean[0], [[600.0, 600.0 / dt]] * after.mean.shape[1], rtol=1e-3)
+    second = one_axis.look(estimator, one_axis.look(estimator, start, 600.0), 1300.0)
+    assert_allclose(second.mean[0, 0, 0], 1200.0 + 0.3 * 100.0, rtol=2e-3)
 
 
 def test_velocity_gain_counts_the_time_since_the_last_plot(one_axis) -> None:
@@ -163,3 +176,27 @@ def test_lag_is_not_seen_in_the_noise_of_a_plot(one_axis) -> None:
             mixture = one_axis.look(estimator, mixture, 0.0)
         calm, other = (one_axis.look(estimator, mixture, z) for z in (0.0, sigmas * SD))
         assert_allclose(calm.covariance, other.covariance, rtol=1e-12)
+
+
+@pytest.mark.parametrize('moved', [50.0, 300.0])
+def test_range_rate_of_an_acceleration_is_as_likely_as_its_place(moved: float) -> None:
+    """After a T^2 / 2 of position and a T of velocity the distance is at most doubled."""
+    estimator = AlphaBeta(ALPHA, 1)
+    mixture = estimator.start(np.zeros((1, 2)), np.diag([SD**2, (SD / T) ** 2])[None])
+    for _ in range(20):
+        mixture = seen(estimator, mixture, 0.0, 0.0)[0]
+    _, far = seen(estimator, mixture, moved, 2.0 * moved / T)
+    _, place = seen(estimator, mixture, moved, np.nan)
+    assert place.distance[0, 0] > 0.0
+    assert far.distance[0, 0] <= 2.0 * place.distance[0, 0]
+
+
+def seen(estimator, mixture, position: float, rate: float):
+    """Predict, compare and update one track on one axis with a plot that has a range rate."""
+    row, sure = np.zeros(1, np.int64), Association(np.ones(1), np.zeros(1), np.zeros(1, bool))
+    mixture = estimator.predict(mixture, np.array([T]))
+    plot = without_absent(
+        np.array([[position, rate]]), np.eye(2)[None], np.diag([SD**2, 2.0**2])[None]
+    )
+    innovations = estimator.innovate(mixture, row, plot)
+    return estimator.update(mixture, row, innovations, sure), innovations

@@ -88,3 +88,13 @@ def test_over_modes_equals_the_reduction_of_numpy() -> None:
         values = rng.normal(size=shape)
         for join in (np.add, np.maximum, np.minimum):
             assert_allclose(over_modes(join, values), join.reduce(values, axis=1))
+
+
+@pytest.mark.parametrize('size', [1, 2, 3, 4])
+def test_inverse_of_what_rounding_left_singular_is_nothing(size: int) -> None:
+    """No number and no error of it spoils the others; the determinant says which it is."""
+    good, flat = np.diag(np.arange(2.0, 2.0 + size)), np.zeros((size, size))
+    worse = good - 4.0 * np.eye(size) * np.eye(size)[0]
+    inverted, determinant = inverse(np.stack([good, flat, worse]))
+    assert_allclose(inverted, [np.linalg.inv(good), flat, flat], atol=1e-15)
+    assert (np.sign(determinant) == [1.0, 0.0, -1.0]).all()

@@ -79,6 +79,7 @@ def hostile_start(estimator: Estimator, rng: np.random.Generator) -> tuple[Mixtu
     mean, covariance = np.zeros((CASES, 4)), np.zeros((CASES, 4, 4))
     mean[:, 0::2], covariance[:, 0::2, 0::2] = position, R
     mean[:, 1::2] = rng.normal(0.0, SPEED_SD, (CASES, 2))
+    mean[::2, 1::2] = 0.0  # as a start from one plot has it
     covariance[:, 1, 1] = covariance[:, 3, 3] = SPEED_SD**2
     return estimator.start(mean, covariance), sd
 

@@ -13,7 +13,6 @@ from tracking_core.alpha_beta import heard
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
 from tracking_core.chances import chi_square_bound
 from tracking_core.gain_control import ControlledGain, surprise
-from tracking_core.kalman import innovate
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ class AdaptiveAlphaBeta:
 
     def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
         """Compare the pairs with the prediction."""
-        return innovate(mixture, track, measurement)
+        return self._filter.gains.innovate(mixture, track, measurement)
 
     def update(
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association
@@ -88,13 +87,6 @@ class AdaptiveAlphaBeta:
     ) -> Floats:
         """Return the normalised innovation squared (P,), plot noise alone considered."""
         if self.covariance == 'recursion':
-            return self._as_of_place(innovations)
+            return innovations.distance[:, 0]
         _, last = self._gain(place - 1.0)
         return self._filter.settled_distance(mixture, track, innovations, last)
-
-    def _as_of_place(self, innovations: Innovations) -> Floats:
-        """Return squared distances (P,), those with a range rate scaled to the same bound."""
-        cross, squared = innovations.cross_covariance[:, 0], innovations.distance[:, 0]
-        has_rate = (cross[:, :, self.axes :] != 0.0).any(axis=(1, 2))
-        bound = chi_square_bound(1.0 - self.false_alarm, self.axes + 1)
-        return np.where(has_rate, squared * self.bound / bound, squared)

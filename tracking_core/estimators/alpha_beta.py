@@ -11,7 +11,6 @@ import numpy as np
 
 from tracking_core.alpha_beta import GainFilter
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
-from tracking_core.kalman import innovate
 
 
 @dataclass(frozen=True)
@@ -43,7 +42,7 @@ class AlphaBeta:
 
     def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
         """Compare the pairs with the prediction."""
-        return innovate(mixture, track, measurement)
+        return self._gains.innovate(mixture, track, measurement)
 
     def update(
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association

@@ -13,7 +13,6 @@ from tracking_core.alpha_beta import heard
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
 from tracking_core.fuzzy import KHACHATUROV, Rules
 from tracking_core.gain_control import ControlledGain
-from tracking_core.kalman import innovate
 from tracking_core.manoeuvre_detector import Detector
 
 
@@ -57,7 +56,7 @@ class FuzzyAlphaBeta:
 
     def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
         """Compare the pairs with the prediction."""
-        return innovate(mixture, track, measurement)
+        return self._filter.gains.innovate(mixture, track, measurement)
 
     def update(
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association

@@ -12,7 +12,6 @@ import numpy as np
 from tracking_core.alpha_beta import GainFilter
 from tracking_core.batches import Association, Floats, Innovations, Ints, Measurement, Mixture
 from tracking_core.estimators.markov_jump import mix
-from tracking_core.kalman import innovate
 
 
 @dataclass(frozen=True)
@@ -64,7 +63,7 @@ class ImmAlphaBeta:
 
     def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
         """Compare the pairs with every mode."""
-        return innovate(mixture, track, measurement)
+        return self._gains.innovate(mixture, track, measurement)
 
     def update(
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association

@@ -20,7 +20,6 @@ from tracking_core.batches import (
     Mixture,
 )
 from tracking_core.gain_control import ControlledGain
-from tracking_core.kalman import innovate
 from tracking_core.linalg import sum_by_track
 from tracking_core.manoeuvre_detector import Detector
 
@@ -62,7 +61,7 @@ class TwoPoint:
 
     def innovate(self, mixture: Mixture, track: Ints, measurement: Measurement) -> Innovations:
         """Compare the pairs with the prediction."""
-        return innovate(mixture, track, measurement)
+        return self._filter.gains.innovate(mixture, track, measurement)
 
     def update(
         self, mixture: Mixture, track: Ints, innovations: Innovations, association: Association
@@ -77,7 +76,8 @@ class TwoPoint:
         single = self._from_the_plot_before(single, mixture, off, said.declared, association)
         nu = innovations.innovation[:, 0, : self.axes] * association.probability[:, None]
         mean_nu = sum_by_track(nu, track, len(off))
-        off = (1.0 - alpha)[:, None] * mean_nu + association.miss[:, None] * off
+        moved = single.mean[:, 0, 0::2] - mixture.mean[:, 0, 0::2]
+        off = mean_nu - moved + association.miss[:, None] * off
         return self._filter.with_control(
             single, said.declared.astype(np.float64), np.concatenate([said.memory, off], axis=1)
         )
