@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import rclpy
+from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
@@ -51,3 +53,11 @@ def begin(
     except RuntimeError as error:
         is_unknown = type(error).__name__ == 'UnknownROSArgsError'  # which rclpy does not export
         raise NotBegun(f'{error}{USAGE if is_unknown else ""}') from error
+
+
+def made(make_node: Callable[[], Any]) -> Any:
+    """Return a new node; NotBegun where a parameter of rclpy's own has a value of another type."""
+    try:
+        return make_node()
+    except InvalidParameterTypeException as error:  # as of use_sim_time:=1
+        raise NotBegun(str(error)) from error

@@ -12,7 +12,7 @@ from typing import Any
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.utilities import ok, try_shutdown
 
-from tracking_node.beginning import begin, NotBegun
+from tracking_node.beginning import begin, made, NotBegun
 from tracking_node.clocks import steady_timer
 from tracking_node.parameters import BadParameter
 from tracking_session.parameter_blocks import foreign_files
@@ -52,13 +52,13 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
         print(f'cannot start: {error}', file=sys.stderr)
         return 1
     try:
-        node = make_node()
+        node = made(make_node)
         for line in foreign_files(node.get_fully_qualified_name(), given):
             node.get_logger().warning(f'no parameters from {line}')
         _spin(node, stops)
     except ExternalShutdownException:
         pass
-    except (BadParameter, NotStarted) as error:
+    except (BadParameter, NotBegun, NotStarted) as error:
         if not ok():
             return 0  # a signal came while the node was being made
         print(f'cannot start: {error}', file=sys.stderr)

@@ -17,7 +17,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import try_shutdown
 
 from msg_adapters.message_types import rclpy_types
-from tracking_node.beginning import begin
+from tracking_node.beginning import begin, made
 from tracking_tools.scenarios.broadcast import Broadcast, broadcast, Scene
 from tracking_tools.scenarios.messages import Sent
 
@@ -107,7 +107,7 @@ def publish(
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     begin(ros_arguments, SignalHandlerOptions.NO)
-    node = SimulatedSensor(air, rate, wait, scene.description)
+    node = made(lambda: SimulatedSensor(air, rate, wait, scene.description))
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:

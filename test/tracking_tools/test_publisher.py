@@ -134,6 +134,7 @@ def test_live_stops_cleanly(ros_domain_id, signals):
         (('-r', 'plots:='), "Couldn't parse remap rule"),
         (('--frob',), "['--frob']: no argument of ROS; remap with -r FROM:=TO"),
         (('--', 'frob'), 'unknown arguments frob: those of ROS come after --ros-args'),
+        (('-p', 'use_sim_time:=1'), "'use_sim_time' to '1' of type 'INTEGER', expecting"),
         (('--params-file', 'none.yaml'), 'there is no parameter file none.yaml'),
     ],
 )

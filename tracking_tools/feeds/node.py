@@ -21,7 +21,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import try_shutdown
 from sensor_msgs.msg import PointCloud2
 
-from tracking_node.beginning import begin
+from tracking_node.beginning import begin, made
 from tracking_tools.feeds.feed import describe, Feed
 from tracking_tools.feeds.sources import LARGEST
 
@@ -108,7 +108,7 @@ def publish(
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     begin(ros_arguments, SignalHandlerOptions.NO)
-    node = FeedNode(name, feed)
+    node = made(lambda: FeedNode(name, feed))
     try:
         if isinstance(chunks, socket.socket):
             _hear(node, chunks, stop.is_set)
