@@ -44,4 +44,5 @@ class Watch:
 
     def end(self) -> None:
         """Watch no longer: the number may soon be another process's."""
-        self._watcher.communicate(b'end')
+        if self._watcher.returncode is None:
+            self._watcher.communicate(b'end')

@@ -132,6 +132,7 @@ def test_what_a_command_has_started_ends_with_it(ros_domain_id, tmp_path):
     command = [sys.executable, '-c', PARENT, CHILD]
     with NodeProcess(command, ros_domain_id, tmp_path / 'log') as node:
         child = int(node.wait_for_line('\n'))
+        assert node.stop() == 0  # and once more at the end
     assert node.exit_code == 0
     wait_until_gone(child)
 
