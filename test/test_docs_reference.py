@@ -101,11 +101,11 @@ def test_pages_have_every_namespace_of_the_markers(sensor):
 
 
 def test_page_has_every_key_of_the_diagnostics():
-    """Keys of the node's topics stand for all three."""
+    """Keys of the node's topics stand for all four."""
     one, _ = session()
     one.plots(message(), 1.0)
     keys = {
-        re.sub(r'^(plots|ownship|acquire) (?!age|used|held|silences)', 'TOPIC ', key)
+        re.sub(r'^(plots|ownship|acquire|cancel) (?!age|used|held|silences)', 'TOPIC ', key)
         for key in Health(0.0).values(one, 1.0)
     }
     text = section('radar_node.md', 'Diagnostics')

@@ -71,7 +71,8 @@ class Health:
             yield f'too slow: only the newest {topic} are used'
         if len(session.tracks) >= NEAR_CAPACITY * session.instrument.tracker.config.max_tracks:
             yield 'close to max_tracks'
-        crowded = [name for name, count in session.counts.items() if count.publishers > 1]
+        sensors = (topic, 'ownship')  # while orders may come from several consoles
+        crowded = [name for name in sensors if session.counts[name].publishers > 1]
         if crowded:
             yield f'several publishers on {" and ".join(crowded)}'
         yield from sorted(new)
@@ -103,9 +104,11 @@ class Health:
             'ownship age [s]': now - self.ownship_at,
             'clock jumps': session.guard.jumps,
             f'{topic} silences': session.guard.silences,
-            **session.counts[topic].values(topic),
-            **session.counts['ownship'].values('ownship'),
-            **session.counts['acquire'].values('acquire'),
+            **{
+                name: value
+                for topic, count in session.counts.items()
+                for name, value in count.values(topic).items()
+            },
         }
 
 

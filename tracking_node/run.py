@@ -9,17 +9,16 @@ import signal
 import sys
 from typing import Any
 
-import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.utilities import ok, remove_ros_args, try_shutdown
+from rclpy.utilities import ok, try_shutdown
 
+from tracking_node.beginning import begin, made, NotBegun
 from tracking_node.clocks import steady_timer
 from tracking_node.parameters import BadParameter
-from tracking_session.parameter_blocks import foreign_files, missing_files
+from tracking_session.parameter_blocks import foreign_files
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
 LOOK = 1.0  # between two looks at whether the context has ended [s]
-USAGE = ': no argument of ROS; remap with -r FROM:=TO, set with -p NAME:=VALUE'
 
 
 class NotStarted(RuntimeError):  # noqa: N818 (a state rather than an error)
@@ -46,18 +45,20 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     stops: list[int] = []
     # rclpy ends its context on a signal; Python's own KeyboardInterrupt could come anywhere.
     signal.signal(signal.SIGINT, lambda number, _: stops.append(number))
-    wrong = _init(args)
-    if wrong:
-        print(f'cannot start: {wrong}', file=sys.stderr)
+    given = sys.argv[1:] if args is None else args
+    try:
+        begin(given)
+    except NotBegun as error:
+        print(f'cannot start: {error}', file=sys.stderr)
         return 1
     try:
-        node = make_node()
-        for line in foreign_files(node.get_fully_qualified_name(), args or sys.argv):
+        node = made(make_node)
+        for line in foreign_files(node.get_fully_qualified_name(), given):
             node.get_logger().warning(f'no parameters from {line}')
         _spin(node, stops)
     except ExternalShutdownException:
         pass
-    except (BadParameter, NotStarted) as error:
+    except (BadParameter, NotBegun, NotStarted) as error:
         if not ok():
             return 0  # a signal came while the node was being made
         print(f'cannot start: {error}', file=sys.stderr)
@@ -71,25 +72,6 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
         try_shutdown()
         _ignore_stops()  # rclpy has put back what was before
     return 0
-
-
-def _init(args: Sequence[str] | None) -> str:
-    """Begin to speak ROS; return why that cannot be, '' if it can."""
-    given = list(sys.argv if args is None else args)
-    for path in missing_files(given):
-        return f'there is no parameter file {path}'
-    try:
-        strange = remove_ros_args(given)[args is None :]
-    except RuntimeError as error:
-        is_unknown = type(error).__name__ == 'UnknownROSArgsError'  # which rclpy does not export
-        return f'{error}{USAGE if is_unknown else ""}'
-    if strange:
-        return f'unknown arguments {" ".join(strange)}: those of ROS come after --ros-args'
-    try:
-        rclpy.init(args=None if args is None else given)
-    except RuntimeError as error:
-        return str(error)
-    return ''
 
 
 def _spin(node: Any, stops: list[int]) -> None:

@@ -68,8 +68,8 @@ class LiveTopics:
         subscriptions = {  # of two that are there, the executor takes the first
             'ownship': hear(Odometry, 'ownship', self._on_ownship),
             self._topic: hear(input_class, self._topic, self._on_plots),
-            'acquire': hear(PointStamped, 'acquire', self._order(acquire)),
-            'cancel': hear(UInt32, 'cancel', self._order(cancel)),
+            'acquire': hear(PointStamped, 'acquire', self._order('acquire', acquire)),
+            'cancel': hear(UInt32, 'cancel', self._order('cancel', cancel)),
         }
         self._inputs = Inputs(subscriptions, self._session.ledger)
         self._tracks = tell(PointCloud2, '~/tracks')
@@ -149,9 +149,19 @@ class LiveTopics:
             self._reporter.health.ownship_at = time.monotonic()
             self._session.ownship(msg, arrival_time(self._node))
 
-    def _order(self, give: Callable[[Session, Any], None]) -> Callable[[Any], None]:
+    def _order(
+        self, topic: str, give: Callable[[Session, Any], None]
+    ) -> Callable[[Any, Any], None]:
         """Return a callback that hands orders on while the node is active."""
-        return lambda msg: give(self._session, msg) if self._is_active else None
+
+        def on_order(msg: Any, info: Any) -> None:
+            if not self._is_active:
+                self._inputs.ignore(topic, info)
+                return
+            self._inputs.count(topic, info)
+            give(self._session, msg)
+
+        return on_order
 
     def _on_reset(self, _: Any, response: Any) -> Any:
         self._waiting.clear()

@@ -49,7 +49,7 @@ class Session:
         self, instrument: Instrument, node_config: NodeConfig, types: MessageTypes, log: Log
     ) -> None:
         self.instrument = instrument
-        self.ledger = Ledger(f'{instrument.topic} ownship acquire', log.warning)
+        self.ledger = Ledger(f'{instrument.topic} ownship acquire cancel', log.warning)
         self.guard = StampGuard(node_config.time_jump_threshold)
         self.whereabouts = Whereabouts(node_config)
         self._history = History(instrument, node_config.scan.late, node_config.time_jump_threshold)

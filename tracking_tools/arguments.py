@@ -7,6 +7,7 @@ from __future__ import annotations
 from argparse import ArgumentTypeError
 from datetime import datetime
 import math
+import os
 from pathlib import Path
 
 
@@ -15,6 +16,15 @@ def file_to_write(text: str) -> Path:
     if text.endswith('/') or Path(text).is_dir():
         raise ArgumentTypeError(f'{text} is a directory, not the name of a file')
     return Path(text)
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder and those that it is in; NotADirectoryError where a file is in the way."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError) as error:
+        file = next(place for place in (path, *path.parents) if os.path.lexists(place))
+        raise NotADirectoryError(f'{file} is no folder, nothing can be written in it') from error
 
 
 def positive(text: str) -> float:

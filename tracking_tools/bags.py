@@ -28,6 +28,7 @@ from rosbags.typesys import get_typestore, Stores
 from rosbags.typesys.store import Typestore
 
 from msg_adapters.message_types import NANOSECONDS
+from tracking_tools.arguments import make_folder
 
 TYPESTORE: Typestore = get_typestore(Stores.ROS2_JAZZY)
 POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
@@ -116,8 +117,8 @@ class BagWriter:
 
     Raises
     ------
-    FileExistsError
-        Where something exists at ``path``.
+    FileExistsError, NotADirectoryError
+        Where something exists at ``path``, or a file where its folder should be.
 
     """
 
@@ -125,7 +126,7 @@ class BagWriter:
         path = Path(path)
         if path.exists():
             raise FileExistsError(f'{path} exists already; remove it or choose another name')
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(path.parent)
         self._path = path
         # Goes with the writer at the latest, wherever a signal ends the command.
         self._workshop = TemporaryDirectory(prefix=f'.{path.name}.', dir=path.parent)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 import numpy as np
 
 from tracking_session.node_config import Configs
+from tracking_tools.arguments import make_folder
 from tracking_tools.bearing_frame import frame_of_tracks
 from tracking_tools.bearing_panels import draw_nothing, draw_ranges, draw_record, MINUTE
 from tracking_tools.bearing_scene import BearingScene, read_bearing_scene
@@ -65,7 +66,7 @@ def draw(scene: BearingScene, path: Path | str, title: str = 'Sonar bearings to 
     draw_ranges(ranges, scene, frame)
     figure.text(0.055, 0.967, title, color=INK, fontsize=18, fontweight='bold', va='center')
     figure.text(0.055, 0.935, _what(scene), color=FAINT, fontsize=10.5, va='center')
-    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    make_folder(Path(path).parent)
     save(figure, path, BITS)
 
 

@@ -24,6 +24,7 @@ from tracking_tools.bags import MAX_ROWS
 from tracking_tools.own_ship import read_platform
 from tracking_tools.replay_topics import Topics
 from tracking_tools.scene import choose, frame_of, read_rows, since, table_rows
+from tracking_tools.track_table import check_table
 
 
 @dataclass(frozen=True)
@@ -82,6 +83,7 @@ def read_bearing_scene(
         seer = read_platform(truth, topics.ownship) or platform
     real = _seen_from(seer, read_rows(where, topics.truth, table_rows))
     table = read_rows(tracks, topics.tracks, table_rows)
+    check_table(table, 'sonar', f'{topics.tracks} in {tracks}')
     own: Columns = {} if platform is None else _own(platform)
     times = [part['time'] for part in (marks, table) if len(part.get('time', ()))]
     begin = float(min(time.min() for time in times)) if times else 0.0

@@ -153,6 +153,8 @@ def run(demo: Demo) -> int:
     """Run the command, where Ctrl-C is an exception also where a shell switched it off."""
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, signal.default_int_handler)
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # which nohup switched off for good
+        signal.signal(signal.SIGHUP, signal.default_int_handler)
     return main(demo=demo)
 
 

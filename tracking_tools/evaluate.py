@@ -11,7 +11,7 @@ import sys
 
 from rosbags.highlevel import AnyReaderError
 
-from tracking_tools.arguments import file_to_write
+from tracking_tools.arguments import file_to_write, make_folder
 from tracking_tools.bags import BadBag
 from tracking_tools.evaluation import evaluate, to_json, to_text
 from tracking_tools.evaluation.options import add_yardstick, yardstick_of
@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         yardstick = yardstick_of(chosen, sensor)
         judgement = evaluate(chosen.tracks, truth, yardstick, chosen.remap, sensor)
         if chosen.json is not None:
-            chosen.json.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(chosen.json.parent)
             chosen.json.write_text(to_json(judgement) + '\n')
     except (BadBag, OSError, AnyReaderError) as error:
         print(f'evaluate: {error}', file=sys.stderr)

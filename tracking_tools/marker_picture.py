@@ -21,7 +21,7 @@ from rosbags.highlevel import AnyReader
 
 from msg_adapters.message_types import NANOSECONDS
 from tracking_core.batches import Floats
-from tracking_tools.arguments import file_to_write, positive
+from tracking_tools.arguments import file_to_write, make_folder, positive
 from tracking_tools.bags import BadBag, open_bag
 from tracking_tools.marker_shapes import draw_markers, places
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
@@ -112,7 +112,7 @@ def draw(markers: Collection[Any], path: Path, title: str, window: Floats | None
     _panel(figure, (0.06, 0.07, share, 0.87), markers, _all_of(markers), title)
     if window is not None:
         _panel(figure, (0.64, 0.07, 0.34, 0.87), markers, window, 'closer')
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_folder(path.parent)
     save(figure, path)
 
 
@@ -152,7 +152,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     sensor, log = SENSORS[chosen.sensor], chosen.output.with_suffix('.log')
     try:
         window = _window(chosen)
-        chosen.output.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(chosen.output.parent)
         screen = play(chosen.recording, chosen.params, sensor, chosen.until, log)
         title = f'~/markers of {sensor.node}, as published: {len(screen.markers)} shapes'
         draw(screen.markers.values(), chosen.output, title, window)

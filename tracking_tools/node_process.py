@@ -16,9 +16,12 @@ import tempfile
 import time
 from typing import IO
 
+from tracking_tools.watch import Watch
+
 DOMAIN_IDS = range(1, 101)
 PATIENCE = 10.0  # for a node to end after SIGINT [s]
 DEADLINE = 20.0  # for a node to say something [s]; discovery takes 2.4 s on a loaded machine
+SHOWN = 20  # lines of a node's log where a test has failed
 LOOK = 0.02  # between two looks into the log [s]
 
 _locks: dict[int, int] = {}  # file descriptor of the lock by domain id
@@ -112,10 +115,13 @@ class NodeProcess:
                 pass_fds=self._held,
                 start_new_session=True,  # a Ctrl-C at the terminal is ours to pass on
             )
+        self._watch = Watch(self.process.pid, self._patience)
         return self
 
-    def __exit__(self, *error: object) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self.exit_code = self.stop()
+        if isinstance(error, (AssertionError, TimeoutError)):  # of a test: pytest shows it
+            print(f'The node of {self.log_file} said last:', *self._last_lines(SHOWN), sep='\n')
 
     @property
     def log(self) -> str:
@@ -147,15 +153,18 @@ class NodeProcess:
         """Raise NodeFailed if the node has ended."""
         code = self.process.poll()
         if code is not None:
-            said = self.log.strip().splitlines()[-3:]
             raise NodeFailed(
                 f'the node ended with code {code}; last lines of {self.log_file}:\n'
-                + '\n'.join(said)
+                + '\n'.join(self._last_lines(3))
             )
 
+    def _last_lines(self, count: int) -> list[str]:
+        return self.log.strip().splitlines()[-count:]
+
     def signal(self, number: int) -> None:
-        """Send a signal."""
-        self.process.send_signal(number)
+        """Send a signal, as a terminal does: also to what the command has started."""
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, number)
 
     def wait(self, deadline: float = DEADLINE) -> int:
         """Return the exit code of a node that ends by itself within `deadline` [s]."""
@@ -166,11 +175,11 @@ class NodeProcess:
         before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # an impatient user must wait
         try:
             for request in (signal.SIGINT, signal.SIGTERM):
-                if self.process.poll() is None:
-                    self.process.send_signal(request)
+                self.signal(request)
                 with suppress(subprocess.TimeoutExpired):
                     return self.process.wait(self._patience)
-            self.process.kill()
+            self.signal(signal.SIGKILL)
             return self.process.wait()
         finally:
+            self._watch.end()
             signal.signal(signal.SIGINT, before)

@@ -12,6 +12,7 @@ from matplotlib.image import imsave
 import numpy as np
 
 from tracking_session.node_config import Configs
+from tracking_tools.arguments import make_folder
 from tracking_tools.highlights import find_meeting, find_turning, holding_window
 from tracking_tools.panels import draw_plan, draw_probability, draw_window
 from tracking_tools.picture_style import BACK, FAINT, INK
@@ -55,7 +56,7 @@ def draw(scene: Scene, path: Path | str, title: str = 'Radar plots to tracks') -
         draw_probability(figure.add_subplot(rows[1]), scene, number)
     figure.text(0.06, 0.972, title, color=INK, fontsize=18, fontweight='bold', va='center')
     figure.text(0.06, 0.945, _what(scene), color=FAINT, fontsize=10.5, va='center')
-    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    make_folder(Path(path).parent)
     save(figure, path)
 
 

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 import signal
 from threading import Event
 
-import rclpy
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -18,6 +17,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import try_shutdown
 
 from msg_adapters.message_types import rclpy_types
+from tracking_node.beginning import begin, made
 from tracking_tools.scenarios.broadcast import Broadcast, broadcast, Scene
 from tracking_tools.scenarios.messages import Sent
 
@@ -106,8 +106,8 @@ def publish(
     air, stop = broadcast(scene, sectors), Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
-    rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
-    node = SimulatedSensor(air, rate, wait, scene.description)
+    begin(ros_arguments, SignalHandlerOptions.NO)
+    node = made(lambda: SimulatedSensor(air, rate, wait, scene.description))
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:

@@ -77,7 +77,7 @@ class Topics:
         return topics
 
     def handlers(self, session: Session) -> dict[str, Handler]:
-        """Return what to do with the messages of each topic of the bag."""
+        """Return what to do with the messages of each topic; BadBag where tracks would go."""
         takes: dict[str, Callable[[Any, float], Any]] = {
             'plots': session.plots,
             'ownship': session.ownship,
@@ -85,10 +85,13 @@ class Topics:
             'cancel': lambda msg, _: cancel(session, msg),
         }
         names = {'plots': self.sensor}
-        return {
+        found = {
             getattr(self, name): Handler(names.get(name, name), take)
             for name, take in takes.items()
         }
+        if self.tracks in found:
+            raise BadBag(f'{self.tracks} is for {found[self.tracks].name}, tracks cannot go there')
+        return found
 
 
 def check_topics(bag: AnyReader, topics: Topics, path: Path | str) -> None:

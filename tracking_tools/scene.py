@@ -22,6 +22,7 @@ from tracking_tools.bags import MAX_ROWS, open_bag, UNREADABLE
 from tracking_tools.own_ship import read_platform
 from tracking_tools.plot_places import PlotPlaces
 from tracking_tools.replay_topics import Topics
+from tracking_tools.track_table import check_table
 
 
 @dataclass(frozen=True)
@@ -87,6 +88,7 @@ def read_scene(
     )
     real = read_rows(recording if truth is None else truth, topics.truth, table_rows)
     table = read_rows(tracks, topics.tracks, table_rows)
+    check_table(table, 'radar', f'{topics.tracks} in {tracks}')
     timed = [part['time'] for part in (plots, table) if len(part.get('time', ()))]
     begin = float(min(times.min() for times in timed)) if timed else 0.0
     plots, table, real = (since(begin, part) for part in (plots, table, real))

@@ -10,10 +10,11 @@ from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 import sys
+import time
 
 from tqdm import tqdm
 
-from msg_adapters.message_types import rosbags_types
+from msg_adapters.message_types import LATEST, rosbags_types
 from tracking_tools.arguments import positive, seed
 from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.scenarios.broadcast import broadcast, Scene
@@ -82,7 +83,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             publish = publisher.publish
             return int(publish(scene, ros_arguments, chosen.sectors, chosen.rate, chosen.wait))
         rows = record(scene, chosen.output, chosen.sectors, chosen.compress)
-    except (ValueError, OSError) as error:
+    except (ValueError, OSError, MemoryError) as error:
         parser.error(str(error))
     topic = broadcast(scene).topic
     print(f'{chosen.output}: {scene.description}; {rows[topic]} {topic}, {rows[TRUTH]} true rows')
@@ -112,6 +113,12 @@ def _split(arguments: list[str]) -> tuple[list[str], list[str]]:
 
 
 def _changed(scene: Scene, chosen: argparse.Namespace) -> Scene:
+    begin = time.time() if chosen.live else EPOCH
+    if chosen.duration is not None and begin + chosen.duration > LATEST:
+        raise ValueError(
+            f'duration must be at most {LATEST - begin:.0f} s, when the stamps of messages end, '
+            f'got {chosen.duration:g}'
+        )
     wanted = {name: getattr(chosen, name) for name in ('seed', 'duration')}
     return replace(scene, **{k: v for k, v in wanted.items() if v is not None})
 

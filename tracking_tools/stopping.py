@@ -1,7 +1,7 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What Ctrl-C, SIGTERM or a pipe that is closed does to a command.
+What Ctrl-C, SIGTERM, a terminal that closes or a pipe that is closed does to a command.
 
 No traceback, nothing half done is left behind, and the exit code is the usual one.
 """
@@ -18,7 +18,9 @@ from threading import current_thread, main_thread
 
 STOPPED = 130  # by SIGINT, as shells count
 TERMINATED = 143  # ... by SIGTERM
+HUNG_UP = 129  # ... by SIGHUP: the terminal is closed
 UNREAD = 141  # ... by SIGPIPE: nobody reads on, as behind a pipe to head
+CODES = {signal.SIGTERM: TERMINATED, signal.SIGHUP: HUNG_UP}
 Main = Callable[..., int]
 
 
@@ -29,7 +31,7 @@ def stoppable(name: str) -> Callable[[Main], Main]:
         @wraps(main)
         def stoppable_main(*args: object) -> int:
             try:
-                with _leaving_when_terminated():
+                with _leaving_when_told():
                     code = main(*args)
                     sys.stdout.flush()  # here, where it can still be said that nobody reads
             except KeyboardInterrupt:
@@ -46,18 +48,24 @@ def stoppable(name: str) -> Callable[[Main], Main]:
 
 
 @contextmanager
-def _leaving_when_terminated() -> Iterator[None]:
-    """Let SIGTERM leave all that is open the usual way, unless the command has its own one."""
+def _leaving_when_told() -> Iterator[None]:
+    """Let SIGTERM and SIGHUP leave all that is open the usual way; under nohup SIGTERM alone."""
     if current_thread() is not main_thread():  # where no handler can be set
         yield
         return
-    before = signal.signal(signal.SIGTERM, _leave)
+    before = {number: signal.getsignal(number) for number in CODES}
+    ours = [number for number in CODES if before[number] is not signal.SIG_IGN]
+    for number in ours:
+        signal.signal(number, _leave)
     try:
         yield
     finally:
-        if signal.getsignal(signal.SIGTERM) is _leave:
-            signal.signal(signal.SIGTERM, before)
+        for number in ours:
+            if signal.getsignal(number) is _leave:  # the command may have its own one
+                signal.signal(number, before[number])
 
 
-def _leave(*_: object) -> None:
-    raise SystemExit(TERMINATED)
+def _leave(number: int, _: object) -> None:
+    for each in CODES:
+        signal.signal(each, signal.SIG_IGN)  # a terminal's shell repeats it; we are on our way
+    raise SystemExit(CODES[signal.Signals(number)])

@@ -15,6 +15,7 @@ from typing import Any
 
 from tqdm import tqdm
 
+from tracking_tools.arguments import make_folder
 from tracking_tools.evaluation.options import yardstick_of
 from tracking_tools.parameter_file import configure, read_parameter_file
 from tracking_tools.replay_topics import Topics
@@ -129,7 +130,7 @@ def _report(cases: list[Case], chosen: argparse.Namespace) -> list[str]:
         return []
     pictures = import_module('tracking_tools.sweeping.picture')  # matplotlib takes long
     try:
-        chosen.picture.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(chosen.picture.parent)
         pictures.draw_sweep(cases, chosen.picture, chosen.figure)
     except OSError as error:
         return [f'no picture: {error}']

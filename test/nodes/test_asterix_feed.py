@@ -13,7 +13,6 @@ from sensor_msgs.msg import PointCloud2
 from msg_adapters.message_types import seconds
 from msg_adapters.table import to_columns
 from tracking_tools.feeds.clock import DAY
-from tracking_tools.feeds.sources import open_udp
 from tracking_tools.testing import NodeProcess
 
 generated = pytest.importorskip('asterix.generated')
@@ -32,7 +31,8 @@ def datagram(time_of_day, rho):
 @pytest.fixture
 def feed(ros_domain_id, tmp_path):
     """Start the feed; return its process and its port."""
-    with open_udp('udp://127.0.0.1:0') as free:
+    with socket.socket(type=socket.SOCK_DGRAM) as free:
+        free.bind(('127.0.0.1', 0))
         port = free.getsockname()[1]
     command = [sys.executable, '-m', 'tracking_tools.asterix', f'udp://127.0.0.1:{port}']
     with NodeProcess(command, ros_domain_id, tmp_path / 'feed.log') as process:

@@ -100,6 +100,7 @@ def test_acquire_starts_a_track_at_the_point(start_node, probe):
     point.point.x, point.point.y = 40e3, 40e3
     acquire.publish(point)
     node.wait_for_line('started at')
+    probe.spin_until(lambda: probe.diagnosed('acquire messages') == '1', 'its count')
     after = probe.scan()
     new = ~np.isin(after['id'], before['id'])
     assert np.hypot(after['x'][new] - 40e3, after['y'][new] - 40e3).min() < 1e3

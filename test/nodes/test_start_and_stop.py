@@ -78,6 +78,7 @@ def test_unknown_parameter_is_warned_about_with_the_nearest_name(start_node):
     ('value', 'words'),
     [
         ('motion.horizontal.acceleration_sd:=[]', 'acceleration_sd has no value'),
+        ('use_sim_time:=1', "'use_sim_time' to '1' of type 'INTEGER', expecting type 'BOOL'"),
         ('qos_overrides./plots.subscription.depth:=-3', 'depth must be in [1, 100000] messages'),
     ],
 )

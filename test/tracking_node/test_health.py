@@ -67,4 +67,6 @@ def test_level_names_all_that_is_wrong_until_it_was_told(session):
     health.told(session)
     assert health.level(session, 100.0) == ('WARN', 'several publishers on plots')
     session.counts['plots'].received(2, 1)
+    for orders in ('acquire', 'cancel'):
+        session.counts[orders].received(1, 2)  # of several consoles
     assert health.level(session, 100.0) == ('OK', 'tracking')

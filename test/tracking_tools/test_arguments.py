@@ -35,6 +35,27 @@ def test_directory_is_no_file_to_write(module, words, directory, tmp_path, monke
     assert [path.name for path in tmp_path.iterdir()] == ['there']
 
 
+@pytest.mark.parametrize('below', ['', 'deeper/'])
+@pytest.mark.parametrize('name', ['x', 'sub/x'])
+def test_file_where_a_folder_should_be_is_named(below, name, tmp_path, capsys):
+    """Not only that something exists."""
+    (tmp_path / 'file').write_text('')
+    place = tmp_path / 'file' / below / name
+    with pytest.raises(SystemExit):
+        import_module('tracking_tools.simulate').main(['turns', '--output', str(place)])
+    said = capsys.readouterr().err
+    assert f'{tmp_path}/file is no folder, nothing can be written in it' in said
+
+
+@pytest.mark.parametrize('option', ['--radius', '--cutoff'])
+@pytest.mark.parametrize('size', ['1e200', '1e-200', 'inf', '0'])
+def test_size_whose_powers_are_no_numbers_is_refused(option, size, capsys):
+    """Before a bag is opened."""
+    with pytest.raises(SystemExit):
+        import_module('tracking_tools.evaluate').main(['BAG', option, size])
+    assert f'argument {option}: must be ' in capsys.readouterr().err
+
+
 @pytest.mark.parametrize('seed', ['-1', '1.5', 'x'])
 def test_seed_is_a_whole_number_from_0_on(seed, capsys):
     """The words are ours, not those of a generator."""

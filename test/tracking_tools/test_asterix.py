@@ -174,6 +174,7 @@ def test_file_becomes_a_bag_that_a_replay_reads(tmp_path, capsys):
     ('arguments', 'words'),
     [
         (['udp://nowhere'], 'udp://HOST:PORT'),
+        (['udp://127.0.0.1:0'], 'udp://HOST:PORT, PORT from 1 on'),
         (['udp://127.0.0.1:9', '--bag', 'x'], '--bag is for a file'),
         (['/no/such/file'], 'No such file'),
     ],

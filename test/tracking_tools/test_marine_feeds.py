@@ -6,6 +6,7 @@ from collections import Counter
 from datetime import datetime, timezone
 from functools import reduce
 from operator import xor
+import socket
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -193,10 +194,11 @@ def test_target_told_twice_within_an_interval_is_one_plot(turn):
 
 def test_port_that_another_feed_hears_is_refused():
     """Of two that hear one port of this machine only the last one would be sent to."""
-    with open_udp('udp://127.0.0.1:0') as first:
-        port = first.getsockname()[1]
-        with pytest.raises(OSError, match='in use'):
-            open_udp(f'udp://127.0.0.1:{port}')
+    with socket.socket(type=socket.SOCK_DGRAM) as free:
+        free.bind(('127.0.0.1', 0))
+        port = free.getsockname()[1]
+    with open_udp(f'udp://127.0.0.1:{port}'), pytest.raises(OSError, match='in use'):
+        open_udp(f'udp://127.0.0.1:{port}')
     everybody = f'udp://0.0.0.0:{port}'
     with open_udp(everybody), open_udp(everybody):
         pass
@@ -272,7 +274,7 @@ def test_file_without_targets_makes_no_bag(tmp_path, capsys):
     ('arguments', 'words'),
     [
         (['log.txt'], 'only a live feed'),
-        (['udp://127.0.0.1:0'], '--origin LAT LON'),
+        (['udp://127.0.0.1:10111'], '--origin LAT LON'),
     ],
 )
 def test_ais_that_cannot_be_used_is_told(arguments, words, capsys, tmp_path, monkeypatch):

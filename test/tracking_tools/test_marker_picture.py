@@ -93,7 +93,7 @@ def test_recording_that_is_none_is_told(tmp_path, capsys):
             ['--window', '0', '0', '0'],
             'must be X Y WIDTH, finite, with a width above 0 m, got 0 0',
         ),
-        (['--output', 'file/picture.png'], "'file'"),
+        (['--output', 'file/picture.png'], 'file is no folder'),
     ],
 )
 def test_picture_that_cannot_be_drawn_is_told(options, why, tmp_path, monkeypatch, capsys):

@@ -126,3 +126,22 @@ def test_live_stops_cleanly(ros_domain_id, signals):
         _, complaint = process.communicate(timeout=DEADLINE)
         assert process.returncode == 0
         assert 'Traceback' not in complaint
+
+
+@pytest.mark.parametrize(
+    ('ros', 'words'),
+    [
+        (('-r', 'plots:='), "Couldn't parse remap rule"),
+        (('--frob',), "['--frob']: no argument of ROS; remap with -r FROM:=TO"),
+        (('--', 'frob'), 'unknown arguments frob: those of ROS come after --ros-args'),
+        (('-p', 'use_sim_time:=1'), "'use_sim_time' to '1' of type 'INTEGER', expecting"),
+        (('--params-file', 'none.yaml'), 'there is no parameter file none.yaml'),
+    ],
+)
+def test_live_says_which_argument_ros_cannot_take(ros_domain_id, ros, words):
+    """In the words of the nodes, and without a traceback."""
+    with simulating('turns', '--live', '--ros-args', *ros) as process:
+        _, complaint = process.communicate(timeout=DEADLINE)
+        assert process.returncode == 2
+    assert words in complaint
+    assert 'Traceback' not in complaint

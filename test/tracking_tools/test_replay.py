@@ -124,3 +124,26 @@ def _odometry(types, time, x, speed):
         pose=types.PoseWithCovariance(pose=pose, covariance=np.zeros(36)),
         twist=types.TwistWithCovariance(twist=twist, covariance=np.zeros(36)),
     )
+
+
+def test_replay_follows_orders(cut_bag, tmp_path, messages):
+    """A contact is pointed at in the tenth turn, and the first track is dropped in the twelfth."""
+    kinds = TYPESTORE.types
+    point = kinds['geometry_msgs/msg/PointStamped']
+    place = kinds['geometry_msgs/msg/Point'](x=20e3, y=20e3, z=0.0)
+    with BagWriter(tmp_path / 'ordered') as bag:
+        for turn, (time, plots) in enumerate(messages(cut_bag(TURNS), '/plots')):
+            bag.write('/plots', plots, time)
+            if turn == 10:
+                bag.write('/acquire', point(header=plots.header, point=place), time + 1)
+            if turn == 12:
+                bag.write('/cancel', kinds['std_msgs/msg/UInt32'](data=1), time + 1)
+    summary = replay(tmp_path / 'ordered', tmp_path / 'out', quiet=True)
+    assert summary.tables == TURNS
+    tables = [to_columns(msg, 1000) for _, msg in messages(tmp_path / 'out', TRACKS)]
+    started = np.setdiff1d(tables[11]['id'], tables[10]['id'])
+    assert np.hypot(*(tables[11][axis] - 20e3 for axis in 'xy'))[
+        np.isin(tables[11]['id'], started)
+    ].min() < 2e3  # fmt: skip
+    assert 1 in tables[12]['id']
+    assert 1 not in tables[14]['id']

@@ -63,6 +63,14 @@ def test_replay_says_which_topics_there_are(cut_bag, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_tracks_do_not_go_where_plots_are(cut_bag, tmp_path, capsys):
+    """A live node would hear its own tracks; nothing is left behind."""
+    words = [str(cut_bag(TURNS)), '--sensor', 'radar', '--output', str(tmp_path / 'out')]
+    assert main([*words, '--remap', 'tracks:=/plots', '--quiet']) == 1
+    assert 'replay: /plots is for plots, tracks cannot go there' in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize('name', ['ownship', 'acquire', 'truth'])
 def test_rule_that_leads_nowhere_is_refused(cut_bag, tmp_path, capsys, name):
     """A slip of the pen in the name of own ship would track as if the sensor stood still."""

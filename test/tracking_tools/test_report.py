@@ -22,13 +22,13 @@ from msg_adapters.message_types import rosbags_types
 from msg_adapters.table import from_columns, to_columns
 from tracking_tools.bags import BagWriter, open_bag
 from tracking_tools.evaluate import main as evaluate_main
-from tracking_tools.evaluation.rows import NEEDED
 from tracking_tools.replay import main as replay_main
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report.columns import DARK, ellipses, encode, GREEN, lights, RED
 from tracking_tools.report.command import main
 from tracking_tools.report.material import gather, Sources
 from tracking_tools.report.page import page, safe_json
+from tracking_tools.track_table import NEEDED
 
 EVIL = '</script><script>window.hurt = 1</script><img src=x onerror="window.hurt = 2">'
 
@@ -175,6 +175,29 @@ def test_gather_finds_the_step_times_of_a_live_node(replayed: Path, tmp_path: Pa
             out.write('diagnostics', array(header=header, status=told), time)
     found = gather(Sources('radar', Topics(), tmp_path / 'tracks'))
     assert found.step_times.tolist() == [0.004, 0.006]
+
+
+@pytest.mark.parametrize(
+    ('change', 'words'),
+    [
+        (lambda table: {'covariance': table['covariance'][:, :9]}, 'must have 36 values, got 9'),
+        (lambda table: {'state': table['status']}, 'has no column status'),
+    ],
+)
+def test_report_command_says_what_a_table_lacks(
+    change: Any, words: str, replayed: Path, messages: Any, tmp_path: Path, capsys: Any
+) -> None:
+    """Of another tracker, without a truth."""
+    with BagWriter(tmp_path / 'odd') as out:
+        for time, msg in messages(replayed / 'tracks', '/radar_tracker/tracks'):
+            table = to_columns(msg, 1000)
+            columns = {name: table[name] for name in NEEDED['radar']} | change(table)
+            if 'state' in columns:
+                del columns['status']
+            odd = from_columns(columns, time * 1e-9, 'radar', rosbags_types())
+            out.write('/radar_tracker/tracks', odd, time)
+    assert main([str(tmp_path / 'odd'), '--output', str(tmp_path / 'page.html')]) == 1
+    assert words in capsys.readouterr().err
 
 
 @pytest.mark.parametrize('bag', ['nothing', 'recording'])

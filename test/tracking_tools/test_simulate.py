@@ -189,6 +189,10 @@ def test_bag_topics_are_absolute(tmp_path):
             '--duration: must be a number above 0, got -3',
         ),
         (['z0', '--output', 'x', '--sectors', '2'], 'must be 1 for a staring radar'),
+        (
+            ['turns', '--output', 'x', '--duration', '1e12'],
+            'duration must be at most 447483647 s, when the stamps of messages end, got 1e+12',
+        ),
         (['turns', '--output', '/proc/nope/x'], '/proc/nope'),
         (
             ['sonar_watch', '--output', 'x', '--sectors', '2'],
@@ -204,6 +208,14 @@ def test_wrong_command_says_what_is_wrong(arguments, complaint, capsys, tmp_path
     assert stopped.value.code == 2
     assert complaint in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_scene_that_is_too_large_for_memory_is_told(capsys, tmp_path, monkeypatch):
+    """In the words of numpy, which says how large."""
+    monkeypatch.setattr('tracking_tools.simulate.record', lambda *_: np.empty(1 << 50))
+    with pytest.raises(SystemExit):
+        main(['turns', '--output', str(tmp_path / 'x')])
+    assert 'Unable to allocate' in capsys.readouterr().err
 
 
 def test_list_shows_every_scenario(capsys):

@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ctrl-C and a closed pipe end every command without a traceback, with the usual exit code."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 import os
 from pathlib import Path
+import signal
 import subprocess
 import sys
 import time
@@ -13,7 +16,7 @@ from typing import Any
 import pytest
 
 from tracking_tools.bags import BagWriter
-from tracking_tools.stopping import STOPPED, TERMINATED, UNREAD
+from tracking_tools.stopping import HUNG_UP, STOPPED, TERMINATED, UNREAD
 
 DEMO = Path(__file__).parents[2] / 'demo' / 'terminal_area'
 PATIENCE = 60.0  # [s]
@@ -64,18 +67,37 @@ def test_command_that_nobody_reads_ends_quietly(unbuffered: str) -> None:
     assert done.returncode == UNREAD
 
 
-def test_terminated_replay_leaves_nothing_behind(tmp_path: Path) -> None:
-    """As by timeout, or where a machine is shut down: half a bag under a hidden name is lost."""
-    words = [str(DEMO), '--sensor', 'radar', '--output', str(tmp_path / 'tracks'), '--quiet']
-    with subprocess.Popen([sys.executable, '-m', 'tracking_tools.replay', *words]) as process:
+@pytest.mark.parametrize(
+    ('number', 'code'), [(signal.SIGTERM, TERMINATED), (signal.SIGHUP, HUNG_UP)]
+)
+def test_terminated_replay_leaves_nothing_behind(number: int, code: int, tmp_path: Path) -> None:
+    """As by timeout, or where a terminal is closed: half a bag under a hidden name is lost."""
+    with replaying(tmp_path) as process:
+        process.send_signal(number)
+        assert process.wait(PATIENCE) == code
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_replay_under_nohup_goes_on(tmp_path: Path) -> None:
+    """Who is told to ignore that the terminal closes does so."""
+    with replaying(tmp_path, 'nohup') as process:
+        process.send_signal(signal.SIGHUP)
+        assert process.wait(PATIENCE) == 0
+    assert [path.name for path in tmp_path.iterdir()] == ['tracks']
+
+
+@contextmanager
+def replaying(folder: Path, *before: str) -> Iterator[subprocess.Popen[bytes]]:
+    """Yield a replay that has begun to write into a folder."""
+    words = [str(DEMO), '--sensor', 'radar', '--output', str(folder / 'tracks'), '--quiet']
+    command = [*before, sys.executable, '-m', 'tracking_tools.replay', *words]
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL) as process:
         deadline = time.monotonic() + PATIENCE
-        while not list(tmp_path.glob('.tracks.*/*')):
+        while not list(folder.glob('.tracks.*/*')):
             assert process.poll() is None
             assert time.monotonic() < deadline, 'nothing is written in time'
             time.sleep(0.01)
-        process.terminate()
-        assert process.wait(PATIENCE) == TERMINATED
-    assert list(tmp_path.iterdir()) == []
+        yield process
 
 
 def test_writer_that_a_signal_overtakes_leaves_nothing_behind(tmp_path: Path) -> None:

@@ -17,6 +17,7 @@ from tracking_tools.testing import NodeFailed, NodeProcess, Peer, private_domain
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / 'docs' / 'testing.md'
+DEADLINE = 20.0  # [s]
 
 
 def test_example_of_the_page_runs(tmp_path):
@@ -89,6 +90,80 @@ def test_waiting_for_a_node_that_has_died_ends_at_once(ros_domain_id, tmp_path):
         ):
             peer.wait_until_active('radar_tracker')
     assert node.exit_code == 3
+
+
+PARENT = """
+import subprocess, sys
+child = subprocess.Popen([sys.executable, '-c', sys.argv[1]])
+while child.returncode is None:
+    try:
+        child.communicate()
+    except KeyboardInterrupt:
+        pass
+"""
+CHILD = 'import os, signal; print(os.getpid(), flush=True); signal.pause()'
+RUNNER = """
+import sys
+from tracking_tools.testing import NodeProcess
+with NodeProcess([sys.executable, '-c', sys.argv[1]], 1, sys.argv[2], patience=3.0) as node:
+    node.wait_for_line('')
+    print(node.log, flush=True)
+    node.wait(1000.0)
+"""
+STUBBORN = f'import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); {CHILD}'
+
+
+def is_running(number):
+    """Return whether a process is there and more than a name."""
+    stat = Path(f'/proc/{number}/stat')
+    return stat.exists() and stat.read_text().rpartition(')')[2].split()[0] != 'Z'
+
+
+def wait_until_gone(number):
+    """Wait for the end of a process that is no child of ours."""
+    deadline = time.monotonic() + DEADLINE
+    while is_running(number):
+        assert time.monotonic() < deadline, f'{number} is still there'
+        time.sleep(0.01)
+
+
+def test_what_a_command_has_started_ends_with_it(ros_domain_id, tmp_path):
+    """As of a program that starts a node and leaves Ctrl-C to it, since a terminal tells both."""
+    command = [sys.executable, '-c', PARENT, CHILD]
+    with NodeProcess(command, ros_domain_id, tmp_path / 'log') as node:
+        child = int(node.wait_for_line('\n'))
+        assert node.stop() == 0  # and once more at the end
+    assert node.exit_code == 0
+    wait_until_gone(child)
+
+
+@pytest.mark.parametrize('child', [CHILD, STUBBORN], ids=['obedient', 'stubborn'])
+def test_node_ends_with_a_run_that_is_killed(child, tmp_path):
+    """As by the time limit of a CI: nobody is left to ask it to end."""
+    command = [sys.executable, '-c', RUNNER, child, str(tmp_path / 'log')]
+    environment = {**os.environ, 'PYTHONPATH': str(ROOT)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run:
+        number = int(run.stdout.readline())
+        assert is_running(number)
+        run.kill()
+    wait_until_gone(number)
+
+
+@pytest.mark.parametrize('error', [AssertionError, TimeoutError, KeyboardInterrupt])
+def test_node_of_a_failed_test_is_heard(error, ros_domain_id, tmp_path, capsys):
+    """Its last lines tell more than that something did not come; Ctrl-C is no failure."""
+    words = [sys.executable, '-c', 'for k in range(30): print("plots refused", k)']
+
+    def fail():
+        with NodeProcess(words, ros_domain_id, tmp_path / 'log') as node:
+            node.wait()
+            raise error
+
+    with pytest.raises(error):
+        fail()
+    said = capsys.readouterr().out
+    assert ('plots refused 10\n' in said) == (error is not KeyboardInterrupt)
+    assert 'plots refused 9\n' not in said
 
 
 def test_domain_is_not_given_away_while_a_node_lives_in_it(tmp_path):

@@ -11,13 +11,14 @@ from tracking_tools.arguments import positive
 from tracking_tools.evaluation.judging import Yardstick
 
 MOST_POWER = 20.0  # of GOSPA and OSPA
+SIZES = (1e-9, 1e9)  # of radius and cutoff [m or deg]: beyond, their powers are no numbers
 
 
 def add_yardstick(parser: argparse.ArgumentParser) -> None:
     """Add the options of the yardstick."""
     add = parser.add_argument
-    add('--radius', type=positive, help='match radius [m], default 1000; sonar [deg], 1.5')
-    add('--cutoff', type=positive, help='of GOSPA and OSPA, default: the radius [m or deg]')
+    add('--radius', type=_size, help='match radius [m], default 1000; sonar [deg], 1.5')
+    add('--cutoff', type=_size, help='of GOSPA and OSPA, default: the radius [m or deg]')
     add('--gospa-power', type=_power, default=2.0, metavar='P', help='default 2')
     add('--ospa-power', type=_power, default=1.0, metavar='P', help='default 1')
     add('--turning', type=positive, default=0.8, metavar='RATE',
@@ -32,6 +33,14 @@ def yardstick_of(chosen: argparse.Namespace, sensor: str) -> Yardstick:
         None if chosen.cutoff is None else scale * chosen.cutoff,
         chosen.gospa_power, chosen.ospa_power, math.radians(chosen.turning),
     )  # fmt: skip
+
+
+def _size(text: str) -> float:
+    """Return a radius or cutoff."""
+    number = positive(text)
+    if not SIZES[0] <= number <= SIZES[1]:
+        raise argparse.ArgumentTypeError(f'must be from {SIZES[0]:g} to {SIZES[1]:g}, got {text}')
+    return number
 
 
 def _power(text: str) -> float:

@@ -20,7 +20,6 @@ from tracking_tools.evaluation.rows import (
     bearing_rows,
     has_heights,
     judged_rows,
-    NEEDED,
     no_rows,
     position_rows,
 )
@@ -29,6 +28,7 @@ from tracking_tools.own_ship import read_platform
 from tracking_tools.replay_topics import check_named, check_type_of, inventory, Topics
 from tracking_tools.scene import choose, frame_of, read_rows, table_rows
 from tracking_tools.sensors import SENSORS
+from tracking_tools.track_table import check_table, NEEDED
 
 
 def read_recorded(
@@ -160,12 +160,8 @@ def _read_tracks(bag: Path | str, topics: Topics, kind: str) -> tuple[Columns, F
     table = read_rows(bag, topics.tracks, convert)
     if not stamps:
         raise BadBag(f'{bag}: {topics.tracks} has no messages')
-    missing = [name for name in NEEDED[kind] if table and name not in table]
-    if missing:
-        raise BadBag(f'{bag}: {topics.tracks} has no column {", ".join(missing)}')
+    check_table(table, kind, f'{topics.tracks} in {bag}')
     table = table or no_rows(NEEDED[kind])
-    if kind == 'radar' and (shape := table['covariance'].shape[1:]) != (36,):
-        raise BadBag(f'{bag}: covariance of {topics.tracks} must have 36 values, got {shape}')
     confirmed = choose(table, judged_rows(table, kind))
     order = np.argsort(confirmed['stamp'], kind='stable')
     return choose(confirmed, order), np.unique(stamps)

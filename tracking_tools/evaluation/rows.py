@@ -12,11 +12,7 @@ from msg_adapters.table import Columns
 from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Bools, Floats
 from tracking_tools.scoring import TrackRows
-
-NEEDED = {
-    'radar': ('id', 'status', 'x', 'y', 'z', 'vx', 'vy', 'vz', 'covariance'),
-    'sonar': ('id', 'status', 'bearing', 'bearing_rate', 'bearing_sd', 'bearing_rate_sd'),
-}
+from tracking_tools.track_table import COVARIANCE, NEEDED
 
 PLACE = {'radar': ('x', 'y'), 'sonar': ('bearing',)}
 
@@ -30,7 +26,7 @@ def judged_rows(table: Columns, sensor: str) -> Bools:
 def no_rows(needed: Sequence[str]) -> Columns:
     """Return a track table without rows; nothing was tracked, which is a result, too."""
     columns: Columns = {name: np.zeros(0) for name in (*needed, 'stamp', 'time')}
-    return columns | {'covariance': np.zeros((0, 36))}
+    return columns | {'covariance': np.zeros((0, *COVARIANCE))}
 
 
 def has_heights(table: Columns) -> bool:

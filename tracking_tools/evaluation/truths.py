@@ -17,6 +17,7 @@ from tracking_tools.highlights import smooth_turn_rate
 from tracking_tools.scene import choose
 from tracking_tools.scoring import Truth
 
+SAME = 1.0  # places of a contact that was told twice are not farther apart [m]
 SLOWEST = 0.1  # below, a course means nothing [m/s]
 
 
@@ -64,15 +65,29 @@ def ranges_of(table: Columns, platform: Platform | None) -> Columns:
 
 def _complete(table: Columns) -> Columns:
     """Return the table sorted by contact and time, with all that a truth has."""
-    _, once = np.unique(np.stack([table['id'], table['time']]), axis=1, return_index=True)
-    table = choose(table, once)  # sorted by contact, then time
     table = {**table, 'id': _whole(table['id'])}
+    _, once, same = np.unique(
+        np.stack([table['id'], table['time']]), axis=1, return_index=True, return_inverse=True
+    )
+    _check_places(table, once[same.reshape(-1)])
+    table = choose(table, once)  # sorted by contact, then time
     nothing = np.full(len(table['id']), np.nan)
     table['z'] = np.nan_to_num(table.get('z', nothing))  # if not all are known, none is compared
     for axis in 'xyz':
         told = table.get(f'v{axis}', nothing)
         table[f'v{axis}'] = np.where(np.isfinite(told), told, _slope(table, axis))
     return table
+
+
+def _check_places(table: Columns, first: Ints) -> None:
+    """Raise BadBag where a row is elsewhere than the first (M,) of its contact and time."""
+    apart = np.hypot(table['x'] - table['x'][first], table['y'] - table['y'][first])
+    if (apart > SAME).any():
+        row = int(apart.argmax())
+        raise BadBag(
+            f'contact {table["id"][row]} of the truth is in two places at '
+            f'{table["time"][row]:.3f} s, {apart[row]:.6g} m apart; each contact needs an id'
+        )
 
 
 def _whole(ids: NDArray[Any]) -> Ints:

@@ -13,7 +13,6 @@ from threading import Event
 import time
 from typing import Any
 
-import rclpy
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -22,6 +21,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import try_shutdown
 from sensor_msgs.msg import PointCloud2
 
+from tracking_node.beginning import begin, made
 from tracking_tools.feeds.feed import describe, Feed
 from tracking_tools.feeds.sources import LARGEST
 
@@ -107,8 +107,8 @@ def publish(
     stop = Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
-    rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
-    node = FeedNode(name, feed)
+    begin(ros_arguments, SignalHandlerOptions.NO)
+    node = made(lambda: FeedNode(name, feed))
     try:
         if isinstance(chunks, socket.socket):
             _hear(node, chunks, stop.is_set)

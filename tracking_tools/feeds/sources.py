@@ -22,12 +22,12 @@ def open_udp(address: str) -> socket.socket:
     Raises
     ------
     ValueError
-        For another form of address.
+        For another form of address, or port 0, for which any would be taken that is free.
 
     """
     parts = urlsplit(address)
-    if parts.scheme != 'udp' or not parts.hostname or parts.port is None:
-        raise ValueError(f'address must be udp://HOST:PORT, got {address}')
+    if parts.scheme != 'udp' or not parts.hostname or not parts.port:
+        raise ValueError(f'address must be udp://HOST:PORT, PORT from 1 on, got {address}')
     hearing = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     group = socket.inet_aton(socket.gethostbyname(parts.hostname))
     is_group = 224 <= group[0] < 240

@@ -17,6 +17,7 @@ from bokeh.resources import Resources
 import numpy as np
 
 from tracking_session.node_config import Configs
+from tracking_tools.arguments import make_folder
 from tracking_tools.bearing_frame import frame_of_tracks
 from tracking_tools.picture_style import COLOURS, FAINT
 from tracking_tools.replay_topics import Topics
@@ -52,7 +53,7 @@ MINUTE = 60.0
 def write_page(material: Material, path: Path | str) -> None:
     """Write the page; its folder is made when it is missing."""
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_folder(path.parent)
     path.write_text(page(material), encoding='utf-8')
 
 

@@ -9,6 +9,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+from tracking_tools.arguments import make_folder
 from tracking_tools.sweeping.tasks import Task
 
 Figures = dict[str, Any]
@@ -30,7 +31,7 @@ class Store:
             raise ValueError(f'--output {folder} is a recording; give a folder of its own')
         self.folder = folder
         self._runs = folder / 'runs'
-        self._runs.mkdir(parents=True, exist_ok=True)
+        make_folder(self._runs)
 
     def path(self, task: Task) -> Path:
         """Return where the result of a task is, or will be."""
