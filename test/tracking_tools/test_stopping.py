@@ -72,7 +72,7 @@ def test_command_that_nobody_reads_ends_quietly(unbuffered: str) -> None:
 )
 def test_terminated_replay_leaves_nothing_behind(number: int, code: int, tmp_path: Path) -> None:
     """As by timeout, or where a terminal is closed: half a bag under a hidden name is lost."""
-    with replaying(tmp_path) as process:
+    with replaying(tmp_path, 'env', '--default-signal=HUP') as process:  # whoever tests in nohup
         process.send_signal(number)
         assert process.wait(PATIENCE) == code
     assert list(tmp_path.iterdir()) == []
