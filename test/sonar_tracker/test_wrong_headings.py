@@ -113,12 +113,15 @@ def test_heading_is_wrong_where_most_contacts_seem_to_turn(wandering: float, tur
                                           rng.standard_normal(len(time)))  # fmt: skip
     marks = np.arctan2(line[..., 1], line[..., 0]) + wander
     marks = wrap_angle(marks + SD * rng.standard_normal(marks.shape))
-    ranging, ids = Ranging(RangingConfig()), np.arange(contacts)
+    ranging, ids, doubted, bent = Ranging(RangingConfig()), np.arange(contacts), 0, 0
     for k, now in enumerate(time):
         at, here = np.full(contacts, now), np.tile(own[k], (contacts, 1))
         ranging.hear(ids, at, marks[:, k], np.full(contacts, SD**-2), here)
         ranging.fit_in_turn()
-    assert ranging.courses.doubt_heading(time[-1]) == (wandering > 0.0)
+        bent += ranging.courses.are_bent(now).any()
+        doubted += ranging.courses.doubt_heading(now)
+    assert (bent > 0) == (wandering > 0.0 or turn > 0.0)
+    assert (doubted > 0) == (wandering > 0.0)
     found = ranging.at(ids, at, here)
     assert found.observable[1:].mean() > 0.7
     off = (found.range / np.hypot(*line[:, -1].T) - 1.0)[found.observable]
