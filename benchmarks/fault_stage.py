@@ -16,6 +16,7 @@ import numpy as np
 from rosgraph_msgs.msg import Clock
 
 from benchmarks.fault_scene import Scene
+from benchmarks.shared_memory import shared_memory
 from msg_adapters.message_types import rclpy_types, seconds
 from msg_adapters.track_rows import CONFIRMED
 from tracking_tools.testing import NodeProcess, python_node, to_columns, TrackerProbe
@@ -79,7 +80,9 @@ class Stage:
         return self.open.enter_context(self.nodes[-1])
 
     def kill(self, node: NodeProcess) -> None:
-        """End a process at once, as a crash would."""
+        """End a process at once, as a crash would; what it leaves goes with the stage."""
+        for file in shared_memory(node.process.pid):
+            self.open.callback(file.unlink, missing_ok=True)
         node.signal(signal.SIGKILL)
         node.wait()
 

@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.fault_outcome import Fault, play, repeat
 from benchmarks.faults_of_messages import MESSAGE_FAULTS
-from benchmarks.faults_of_processes import clean_up, KILLS, PROCESS_FAULTS
+from benchmarks.faults_of_processes import KILLS, PROCESS_FAULTS
 
 BEGIN, END = '<!-- faults: begin -->', '<!-- faults: end -->'
 HEAD = '| fault | what the diagnostics say | tracks | back after | ids |\n' + '|---' * 5 + '|'
@@ -29,7 +29,6 @@ HEAD = '| fault | what the diagnostics say | tracks | back after | ids |\n' + '|
 def kill(fault: Fault, times: int, folder: Path) -> str:
     """Kill a process again and again; return how long it took until the tracks were back."""
     scans, seconds = repeat(fault, times, folder).T
-    clean_up()
     return (
         f'{fault.name}, {times} times: back after {scans.min():.0f} / {np.median(scans):.0f} / '
         f'{scans.max():.0f} scans, {seconds.min():.1f} / {np.median(seconds):.1f} / '
@@ -53,7 +52,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if given.only in fault.name:
                 rows.append(play(fault, Path(folder, str(number))).row(fault.name))
                 print(rows[-1], flush=True)
-    clean_up()
     if given.output:
         page = given.output.read_text()
         table = '\n'.join([BEGIN, '', *rows, '', END])

@@ -5,9 +5,6 @@
 from __future__ import annotations
 
 from functools import partial
-from pathlib import Path
-import subprocess
-import sys
 
 from benchmarks.fault_outcome import Fault, Scan
 from benchmarks.fault_stage import PERIOD, Stage
@@ -16,13 +13,6 @@ DEAD = 4  # scans until somebody has started it again
 UNKNOWN = 12  # ... of own ship, longer than its timeout of 2 s
 BOTH = 16  # scans with two publishers
 SILENCE = 28  # scans without any, longer than the 5 s after which the node explains itself
-
-
-def clean_up() -> None:
-    """Remove what killed processes have left in shared memory, with the transport's own tool."""
-    tool = Path(sys.executable).with_name('fastdds')
-    if tool.exists():
-        subprocess.run([tool, 'shm', 'clean'], check=False, capture_output=True)
 
 
 def _source(stage: Stage, what: str) -> None:

@@ -4,10 +4,11 @@
 
 import pytest
 
-from benchmarks.fault_outcome import play, repeat
+from benchmarks.fault_outcome import play, repeat, staged
 from benchmarks.faults import kill
 from benchmarks.faults_of_messages import MESSAGE_FAULTS
-from benchmarks.faults_of_processes import clean_up, KILL_NODE, KILL_PLOTS, KILLS
+from benchmarks.faults_of_processes import KILL_NODE, KILL_PLOTS, KILLS
+from benchmarks.shared_memory import shared_memory
 
 MOST = 15.0  # s: start of a process and discovery on a loaded machine, then six scans
 TIMES = 20
@@ -18,8 +19,19 @@ LEAP = next(fault for fault in MESSAGE_FAULTS if 'for 3 s' in fault.name)
 def test_tracks_come_back_after_a_process_was_killed(fault, tmp_path):
     """SIGKILL and a new start: all contacts are held again."""
     ((_, seconds),) = repeat(fault, 1, tmp_path)
-    clean_up()
     assert seconds < MOST
+
+
+def test_what_a_killed_process_leaves_goes_with_the_stage(tmp_path):
+    """Its segment in shared memory, that is, and no file of a process that may still begin."""
+    with staged(KILL_NODE, tmp_path) as (stage, scan):
+        stage.settle(scan)
+        node = stage.nodes[-1]
+        left = shared_memory(node.process.pid)
+        stage.kill(node)
+        assert len(left) == 2
+        assert all(file.exists() for file in left)
+    assert not any(file.exists() for file in left)
 
 
 @pytest.mark.soak
