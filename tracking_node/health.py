@@ -30,6 +30,7 @@ class Health:
     plots_at: float = -math.inf  # when the last plots came, by the same clock [s]
     pause: float = 0.0  # between the last two plots [s]
     ownship_at: float = -math.inf
+    shared: tuple[str, ...] = ()  # topics of ours on which others publish, too
     _told: Counter[str] = field(default_factory=Counter)  # complaints up to the last report
     _begun: tuple[float, float] = (0.0, 0.0)
 
@@ -73,6 +74,7 @@ class Health:
             yield 'close to max_tracks'
         sensors = (topic, 'ownship')  # while orders may come from several consoles
         crowded = [name for name in sensors if session.counts[name].publishers > 1]
+        crowded += self.shared
         if crowded:
             yield f'several publishers on {" and ".join(crowded)}'
         yield from sorted(new)

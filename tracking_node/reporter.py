@@ -51,8 +51,22 @@ class Reporter:
         self.health.plots_come(time.monotonic())
         self._silence_is_told = True
 
-    def tick(self, subscription: Any, is_active: bool) -> None:
-        """Report once a second; say once why nothing comes on the subscription of the plots."""
+    def tick(self, subscription: Any, tracks: Any, is_active: bool) -> None:
+        """
+        Report once a second.
+
+        Parameters
+        ----------
+        subscription : Subscription
+            Of the plots; if nothing comes on it the log says once why.
+        tracks : Publisher
+            Nobody else should publish there; another node of the same name does.
+        is_active : bool
+            Whether the node tracks.
+
+        """
+        is_shared = self._node.count_publishers(tracks.topic_name) > 1
+        self.health.shared = (tracks.topic_name,) if is_shared else ()
         silent = time.monotonic() - self.health.started
         if is_active and not self._silence_is_told and silent > QUIET:
             self._silence_is_told = True

@@ -175,4 +175,5 @@ class LiveTopics:
     def _tick(self) -> None:
         """Once a second: draw what was not due before, and report."""
         self._markers.draw(self._session, self._node_config.markers)
-        self._reporter.tick(self._inputs.subscriptions[self._topic], self._is_active)
+        plots = self._inputs.subscriptions[self._topic]
+        self._reporter.tick(plots, self._tracks, self._is_active)

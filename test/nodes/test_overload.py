@@ -68,6 +68,25 @@ def test_two_publishers_of_plots_are_reported(start_node, probe):
     probe.spin_until(lambda: probe.diagnosed('plots publishers') == '2', 'the number of them')
 
 
+def test_two_trackers_of_one_name_are_reported(start_node, probe):
+    """Their tracks and ids are mixed on one topic: both say so, until one is gone."""
+    start_node()
+    probe.meet()
+    warning = 'several publishers on /radar_tracker/tracks'
+
+    def are_warned(expected):
+        probe.diagnostics.clear()
+        return lambda: any(
+            (warning in message.status[0].message) == expected for message in probe.diagnostics
+        )
+
+    probe.spin_until(are_warned(False), 'no word while the node is alone')
+    twin = start_node()
+    probe.spin_until(are_warned(True), warning)
+    twin.stop()
+    probe.spin_until(are_warned(False), 'no word when it is alone again')
+
+
 def test_limits_of_tracks_and_plots_hold(start_node, probe):
     """With room for two, the third contact is refused; a message with too many rows hurts none."""
     start_node(RELIABLE, 'max_tracks:=2', 'max_plots:=50')
