@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from msg_adapters.table import from_columns
-from tracking_core.batches import Coverage
+from tracking_core.batches import Coverage, Tracks
 from tracking_node.health import Health
 from tracking_session.node_config import SnapshotConfig
 from tracking_session.snapshots import file as snapshot_file
+from tracking_session.snapshots import values
 from tracking_session.snapshots.file import BadSnapshot, read_snapshot, write_snapshot
 from tracking_session.snapshots.keeper import Keeper, RESERVED
 from tracking_tools.parameter_file import configure
@@ -139,12 +140,12 @@ def test_ids_are_reserved_before_they_are_given_away(sensor, path):
         (lambda data: b'', 'it is no snapshot'),
         (lambda data: data[: len(data) // 2], 'damaged: the checksum is wrong'),
         (lambda data: data[:-1] + bytes([data[-1] ^ 1]), 'damaged: the checksum is wrong'),
-        (lambda data: data.replace(b'snapshot 1', b'snapshot 2', 1), 'of version 2, this program'),
+        (lambda data: data.replace(b'snapshot 2', b'snapshot 9', 1), 'of version 9, this program'),
     ],
     ids=['empty', 'cut', 'flipped', 'version'],
 )
 def test_damaged_file_is_refused(kept, sensor, path, change, words):
-    """With the reason; the session is as new and works."""
+    """With the reason; the session is as new and works, with ids that nobody has had."""
     path.write_bytes(change(path.read_bytes()))
     other = Station(sensor, path)
     assert words in other.lines[-1]
@@ -152,6 +153,18 @@ def test_damaged_file_is_refused(kept, sensor, path, change, words):
     for number in range(SCANS):
         other.scan(number)
     assert len(other.ids()) == len(kept.ids())
+    if 'no snapshot' not in words:
+        assert not other.ids() & kept.ids()
+
+
+def test_file_of_another_program_version_says_which_ids_are_free(kept, sensor, path, monkeypatch):
+    """Whose classes have other fields."""
+    monkeypatch.setitem(values.CLASSES, 'Tracks', lambda **_: Tracks(unknown=1))
+    other = Station(sensor, path, kept.now)
+    assert 'it has contents that are none' in other.lines[-1]
+    for number in range(SCANS):
+        other.scan(number)
+    assert min(other.ids()) > max(kept.ids())
 
 
 @pytest.mark.parametrize(
@@ -249,8 +262,9 @@ def test_file_that_cannot_be_written_is_told_in_log_and_diagnostics(sensor, tmp_
 def test_read_takes_no_memory_and_builds_nothing_unknown(path, plain):
     """Sizes are checked against the file, classes against a list, before anything is made."""
     body = len(plain).to_bytes(8, 'little') + plain.encode()
-    head = f'contact_tracking snapshot 1\n{snapshot_file.sha256(body).hexdigest()}\n'
-    path.write_bytes(head.encode() + body)
+    head = b'contact_tracking snapshot 2 1'
+    checksum = snapshot_file.sha256(head + body).hexdigest().encode()
+    path.write_bytes(b'\n'.join([head, checksum, body]))
     tracemalloc.start()
     with pytest.raises(BadSnapshot, match='contents that are none'):
         read_snapshot(path)

@@ -3,10 +3,11 @@
 """
 How is a tree of values kept in one file, safely?
 
-A line that says what this is, a line with the SHA-256 of all that follows, the length of a JSON
-text, that text, and the bytes of all arrays in a row. Nothing in it is code; every size is checked
-against the file before memory is taken. A new file takes the place of the old one in one step, so
-that a node which is killed while it writes leaves the old one.
+A line that says what this is and which ids are free, a line with the SHA-256 of all else, the
+length of a JSON text, that text, and the bytes of all arrays in a row. Nothing in it is code;
+every size is checked against the file before memory is taken. A new file takes the place of the
+old one in one step, so that a node which is killed while it writes leaves the old one. The first
+line is the same in all versions: whatever has become of the rest, ids go on.
 """
 
 from __future__ import annotations
@@ -16,38 +17,41 @@ from hashlib import sha256
 import json
 import os
 from pathlib import Path
+import re
 import tempfile
 from typing import Any
 
 from tracking_session.snapshots.values import from_plain, to_plain
 
-VERSION = 1
+VERSION = 2
 MAGIC = b'contact_tracking snapshot '
 LARGEST = 1_000_000_000  # bytes of a file; 200,000 tracks are less
 _LENGTH = 8  # bytes that hold the length of the JSON text
+_FIRST_LINE = 80  # bytes of it, at most
+_HEAD = re.compile(MAGIC + rb'\d+ (\d{1,9})\n')
 
 
 class BadSnapshot(ValueError):  # noqa: N818 (it is the snapshot that is bad)
     """A file that cannot be restored; says why."""
 
 
-def write_snapshot(path: Path, tree: Mapping[str, Any]) -> None:
+def write_snapshot(path: Path, tree: Mapping[str, Any], ids: int = 0) -> None:
     """
     Put a tree of values where the old file was, all or nothing; OSError if that fails.
 
-    A folder that is not there is made.
+    A folder that is not there is made. From `ids` on nobody has had them.
     """
     arrays: list[Any] = []
     text = json.dumps(to_plain(dict(tree), arrays)).encode()
     body = b''.join(
         [len(text).to_bytes(_LENGTH, 'little'), text, *(values.tobytes() for values in arrays)]
     )
-    head = MAGIC + f'{VERSION}\n{sha256(body).hexdigest()}\n'.encode()
+    head = MAGIC + f'{VERSION} {ids}'.encode()
     path.parent.mkdir(parents=True, exist_ok=True)
     number, name = tempfile.mkstemp(prefix=f'.{path.name}.', dir=path.parent)
     try:
         with os.fdopen(number, 'wb') as file:
-            file.write(head)
+            file.write(head + b'\n' + _checksum(head, body) + b'\n')
             file.write(body)
             file.flush()
             os.fsync(file.fileno())
@@ -55,6 +59,14 @@ def write_snapshot(path: Path, tree: Mapping[str, Any]) -> None:
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
+
+
+def free_ids(path: Path) -> int:
+    """Return from where on ids are free, 0 where a file does not say; OSError without a file."""
+    with path.open('rb') as file:
+        head = file.readline(_FIRST_LINE)
+    told = _HEAD.match(head)
+    return int(told[1]) if told else 0
 
 
 def read_snapshot(path: Path) -> dict[str, Any]:
@@ -75,12 +87,16 @@ def read_snapshot(path: Path) -> dict[str, Any]:
     checksum, _, body = rest.partition(b'\n')
     if not head.startswith(MAGIC):
         raise BadSnapshot('it is no snapshot')
-    version = head.removeprefix(MAGIC).decode('ascii', 'replace')
+    version = head.removeprefix(MAGIC).decode('ascii', 'replace').partition(' ')[0]
     if version != str(VERSION):
         raise BadSnapshot(f'it is of version {version[:20]}, this program reads {VERSION}')
-    if checksum != sha256(body).hexdigest().encode():
+    if checksum != _checksum(head, body):
         raise BadSnapshot('it is damaged: the checksum is wrong')
     return _tree(body)
+
+
+def _checksum(head: bytes, body: bytes) -> bytes:
+    return sha256(head + body).hexdigest().encode()
 
 
 def _tree(body: bytes) -> dict[str, Any]:

@@ -20,7 +20,12 @@ from typing import Any
 from tracking_core.config import parameters
 from tracking_session.node_config import Configs
 from tracking_session.session import Session
-from tracking_session.snapshots.file import BadSnapshot, read_snapshot, write_snapshot
+from tracking_session.snapshots.file import (
+    BadSnapshot,
+    free_ids,
+    read_snapshot,
+    write_snapshot,
+)  # fmt: skip
 from tracking_session.snapshots.form import check_form
 from tracking_session.snapshots.session_memory import recall, remember
 
@@ -78,10 +83,11 @@ class Keeper:
 
         """
         try:
+            ids = free_ids(path)
+            self._take_ids(ids)  # whatever else is wrong with the file
             memory = read_snapshot(path)
-            self._take_ids(memory)
             age = self._check(memory)
-            self._recall(memory, received - age)
+            self._recall(memory, ids, received - age)
         except FileNotFoundError:
             self._session.log.info(f'no snapshot {path} yet')
         except (BadSnapshot, OSError) as error:
@@ -104,12 +110,11 @@ class Keeper:
             'sensor': session.instrument.topic,
             'parameters': self._parameters,
             'saved': self._clock(),
-            'ids': bound,
             'session': remember(session),
             'tracker': session.instrument.remember(),
         }
         try:
-            write_snapshot(self._path, memory)
+            write_snapshot(self._path, memory, bound)
             self._bound, self._written = bound, tracker.state
         except OSError as error:
             session.ledger.fail('snapshot cannot be written', f'{self._path}: {error}')
@@ -119,11 +124,9 @@ class Keeper:
         if self._path is not None and self._session.instrument.tracker.state.next_id > self._bound:
             self.save()
 
-    def _take_ids(self, memory: dict[str, Any]) -> None:
-        """Begin with ids that nobody has had, whatever else is wrong with the file."""
-        tracker, ids = self._session.instrument.tracker, memory.get('ids')
-        if type(ids) is not int or not 0 < ids < 2**32:
-            raise BadSnapshot('it does not say which ids are free')
+    def _take_ids(self, ids: int) -> None:
+        """Give away only ids that nobody has had."""
+        tracker = self._session.instrument.tracker
         tracker.state = replace(tracker.state, next_id=max(ids, tracker.state.next_id))
 
     def _check(self, memory: dict[str, Any]) -> float:
@@ -144,7 +147,7 @@ class Keeper:
             )
         return age
 
-    def _recall(self, memory: dict[str, Any], received: float) -> None:
+    def _recall(self, memory: dict[str, Any], ids: int, received: float) -> None:
         session = self._session
         try:
             check_form(memory['session'], remember(session))
@@ -153,5 +156,5 @@ class Keeper:
         except (KeyError, TypeError, ValueError) as error:
             raise BadSnapshot(f'it has contents that do not fit: {error}') from error
         finally:
-            self._take_ids(memory)
+            self._take_ids(ids)
         self._written = session.instrument.tracker.state
