@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 from tqdm import tqdm
@@ -39,6 +40,20 @@ CONFIG = with_values(
         'existence.lifetime': 300.0,
     },
 )
+
+
+class Surroundings(Protocol):
+    """What decides on the plots of one look."""
+
+    @property
+    def detection_probability(self) -> float:
+        """Of each contact."""
+        ...
+
+    @property
+    def false_plots(self) -> float:
+        """How many are expected in one look."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -95,7 +110,7 @@ def play(case: Case, scenes: int, looks: int, seed: int, quiet: bool = True) -> 
         tracker, truth = RadarTracker(make_config(case)), np.zeros((0, 4))
         for k in range(looks):
             truth = _next_truth(truth, case, rng)
-            tracks = tracker.track(_plots(truth, case, k * PERIOD, rng))
+            tracks = tracker.track(look(truth, case, k * PERIOD, rng))
             existence.append(tracks.existence_probability)
             real.append(is_real(tracks, truth))
     return Rows(np.concatenate(existence), np.concatenate(real))
@@ -132,8 +147,8 @@ def _next_truth(truth: Floats, case: Case, rng: np.random.Generator) -> Floats:
     return np.concatenate([truth, fresh])
 
 
-def _plots(truth: Floats, case: Case, time: float, rng: np.random.Generator) -> Plots:
-    """Return one look: contacts detected and false plots, in random order."""
+def look(truth: Floats, case: Surroundings, time: float, rng: np.random.Generator) -> Plots:
+    """Return the plots of contacts (N, 4) that are detected, and false ones, in random order."""
     distance = np.hypot(truth[:, 0], truth[:, 2])
     inside = (distance > NEAREST) & (distance < FARTHEST)  # who has left is real, but not seen
     seen = truth[inside & (rng.random(len(truth)) < case.detection_probability)]
