@@ -66,8 +66,8 @@ class ClutterMap:
             Part of a full look that the scan was, see `part_of_look`.
 
         """
-        fresh = np.asarray(np.bincount(cell, plots, self.count.size), np.float64)
-        fresh = fresh.reshape(self.count.shape)
+        shape, size = self.count.shape, self.count.size
+        fresh = np.asarray(np.bincount(cell, plots, size), np.float64).reshape(shape)
         kept: Floats | float = math.exp(-share / MEMORY)
         if _blocks(fresh).max() > JUMP_PLOTS:  # where rain sets in, the calm before is void
             kept = np.where(_have_jumped(fresh, self._usual(looks)), 0.0, kept)

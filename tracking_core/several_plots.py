@@ -147,7 +147,7 @@ def _different(one: Ints, other: Ints, plots: int) -> tuple[Ints, Ints]:
 
 def _one_each(scan: Scan, contact: Ints) -> Scan:
     """Return the mean of the plots of each contact, no surer than one of them."""
-    count = contact.max() + 1
+    count = int(contact.max()) + 1
 
     def mean(values: Floats) -> Floats:
         known = np.isfinite(values)
