@@ -1,19 +1,22 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How a process begins to speak ROS, or says in words why its arguments do not let it."""
+"""How a process begins to speak ROS, or says in words why it cannot; and how it leaves."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+import signal
 from typing import Any
 
 import rclpy
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import remove_ros_args
+from rclpy.utilities import remove_ros_args, try_shutdown
 
+from tracking_node.start import limit_end
 from tracking_session.parameter_blocks import missing_files
 
+STOPS = (signal.SIGINT, signal.SIGTERM)
 USAGE = ': no argument of ROS; remap with -r FROM:=TO, set with -p NAME:=VALUE'
 
 
@@ -61,3 +64,23 @@ def made(make_node: Callable[[], Any]) -> Any:
         return make_node()
     except InvalidParameterTypeException as error:  # as of use_sim_time:=1
         raise NotBegun(str(error)) from error
+
+
+def leave(node: Any, executor: Any = None) -> None:
+    """Take a node, and who spins it, out of the graph for good, in time; signals are too late."""
+    ignore_stops()
+    limit_end()
+    try:
+        if executor is not None:
+            executor.shutdown()
+        node.destroy_node()
+        try_shutdown()
+    finally:
+        signal.alarm(0)
+        ignore_stops()  # rclpy has put back what was before
+
+
+def ignore_stops() -> None:
+    """Hear no request to end: there is nothing left to do, and Python takes its handlers away."""
+    for number in STOPS:
+        signal.signal(number, signal.SIG_IGN)

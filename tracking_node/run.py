@@ -12,12 +12,11 @@ from typing import Any
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.utilities import ok, try_shutdown
 
-from tracking_node.beginning import begin, made, NotBegun
+from tracking_node.beginning import begin, ignore_stops, leave, made, NotBegun
 from tracking_node.clocks import steady_timer
 from tracking_node.parameters import BadParameter
 from tracking_session.parameter_blocks import foreign_files
 
-STOPS = (signal.SIGINT, signal.SIGTERM)
 LOOK = 1.0  # between two looks at whether the context has ended [s]
 
 
@@ -68,9 +67,9 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
             raise
         # A signal came while the node was talking: rclpy says that its context is gone.
     finally:
-        _ignore_stops()
-        try_shutdown()
-        _ignore_stops()  # rclpy has put back what was before
+        ignore_stops()
+        try_shutdown()  # where no node was made
+        ignore_stops()
     return 0
 
 
@@ -84,15 +83,8 @@ def _spin(node: Any, stops: list[int]) -> None:
         if not stops:
             executor.spin()
     finally:
-        _ignore_stops()
-        executor.shutdown()
-        node.destroy_node()
+        leave(node, executor)
 
 
 def _nothing() -> None:
     """Only wake."""
-
-
-def _ignore_stops() -> None:
-    for number in STOPS:
-        signal.signal(number, signal.SIG_IGN)

@@ -3,8 +3,9 @@
 """
 How the program of a node begins and ends: whoever stops it need not wait for ever.
 
-While it still loads it leaves at once. The middleware gives its threads and sockets back while
-Python ends, and was once seen to spin there without end.
+While it still loads it leaves at once. The middleware may never come back from its own end: in
+Fast DDS 2.14, `DomainParticipant::set_listener` waits for a callback of the discovery that waits
+for it, where another node comes or goes just then. No Python runs there, nor its signal handlers.
 
 This file is read before anything that takes time to import.
 """
@@ -22,7 +23,7 @@ USAGE = """usage: {} [--help] [--ros-args [-r FROM:=TO] [-p NAME:=VALUE] [--para
 {}
 
 docs/parameters.md explains every parameter; config/ has files to begin with."""
-LONGEST_END = 10  # from the return of `main` until the process is ended [s]
+LONGEST_END = 10  # of the middleware, until the process is ended [s]
 
 
 def start(module: str, about: str, args: Sequence[str] | None = None) -> int:
@@ -45,9 +46,14 @@ def start(module: str, about: str, args: Sequence[str] | None = None) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _leave)
     code = int(import_module(module).main(args))
-    signal.signal(signal.SIGALRM, signal.SIG_DFL)  # no Python runs then
-    signal.alarm(LONGEST_END)
+    limit_end()
     return code
+
+
+def limit_end() -> None:
+    """End the process after `LONGEST_END`, whatever hangs; ``signal.alarm(0)`` calls it off."""
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    signal.alarm(LONGEST_END)
 
 
 def _leave(*_: object) -> None:

@@ -14,10 +14,9 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import try_shutdown
 
 from msg_adapters.message_types import rclpy_types
-from tracking_node.beginning import begin, made
+from tracking_node.beginning import begin, leave, made, STOPS
 from tracking_tools.scenarios.broadcast import Broadcast, broadcast, Scene
 from tracking_tools.scenarios.messages import Sent
 
@@ -104,7 +103,7 @@ def publish(
     if not rate > 0.0:
         raise ValueError(f'rate must be above 0, got {rate}')
     air, stop = broadcast(scene, sectors), Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in STOPS:
         signal.signal(number, lambda *_: stop.set())
     begin(ros_arguments, SignalHandlerOptions.NO)
     node = made(lambda: SimulatedSensor(air, rate, wait, scene.description))
@@ -116,9 +115,5 @@ def publish(
         if node.has_finished:
             node.take_leave()
     finally:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, signal.SIG_IGN)  # Python takes its handlers away as it exits
-        executor.shutdown()
-        node.destroy_node()
-        try_shutdown()
+        leave(node, executor)
     return 0

@@ -18,10 +18,9 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import try_shutdown
 from sensor_msgs.msg import PointCloud2
 
-from tracking_node.beginning import begin, made
+from tracking_node.beginning import begin, leave, made, STOPS
 from tracking_tools.feeds.feed import describe, Feed
 from tracking_tools.feeds.sources import LARGEST
 
@@ -105,7 +104,7 @@ def publish(
 
     """
     stop = Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in STOPS:
         signal.signal(number, lambda *_: stop.set())
     begin(ros_arguments, SignalHandlerOptions.NO)
     node = made(lambda: FeedNode(name, feed))
@@ -116,10 +115,7 @@ def publish(
             _play(node, chunks, rate, stop)
         node.take_leave()
     finally:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, signal.SIG_IGN)
-        node.destroy_node()
-        try_shutdown()
+        leave(node)
     return 0
 
 
