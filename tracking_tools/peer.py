@@ -4,12 +4,14 @@
 A ROS node of ours that talks with others in their graph, and waits with a deadline.
 
 Nothing sleeps: whoever waits says for what, messages come in meanwhile, and what did not happen
-in time is named in the error.
+in time is named in the error. Should the middleware hang as the node goes (``start.py`` of
+``tracking_node`` says when), the process ends with a traceback: no Python runs to say more.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+import faulthandler
 from functools import partial
 from itertools import count
 import math
@@ -30,6 +32,7 @@ from tracking_tools.node_process import DEADLINE
 
 AGAIN = 1.0  # without an answer for so long, a question is asked once more [s]
 TICK = 0.05  # between two looks at whether it is still worth waiting [s]
+LONGEST_CLOSE = 30.0  # of the middleware, until the process is ended [s]
 MANY = 1000  # messages that may wait to be heard
 
 
@@ -76,9 +79,13 @@ class Peer:
 
     def close(self) -> None:
         """Leave the graph."""
-        self._loop.shutdown()
-        self.node.destroy_node()
-        try_shutdown(context=self._context)
+        faulthandler.dump_traceback_later(LONGEST_CLOSE, exit=True, file=2)  # captured or not
+        try:
+            self._loop.shutdown()
+            self.node.destroy_node()
+            try_shutdown(context=self._context)
+        finally:
+            faulthandler.cancel_dump_traceback_later()
 
     def tell(self, kind: Any, topic: str) -> Any:
         """Return a publisher: reliable, keep last 50."""
@@ -121,11 +128,9 @@ class Peer:
         A topic may lose messages, above all while two nodes get to know each other, so it is sent
         once more whenever there was no answer for `again` seconds; `send` is given 0, 1, 2, ...
         """
-        end = time.monotonic() + deadline
-        for attempt in count():
-            if time.monotonic() > end:
-                break
-            send(attempt)
+        end, attempts = time.monotonic() + deadline, count()
+        while time.monotonic() <= end:
+            send(next(attempts))
             if self.spin(is_answered, again):
                 return
         raise TimeoutError(f'waited {deadline:g} s in vain for {what}')
@@ -184,14 +189,8 @@ class Peer:
         """
         Send a lifecycle node through a transition; return whether it succeeded.
 
-        Parameters
-        ----------
-        node : str
-            Its name.
-        transition : str
-            configure, activate, deactivate, cleanup, unconfigured_shutdown, inactive_shutdown or
-            active_shutdown.
-
+        To configure, activate, deactivate, cleanup, unconfigured_shutdown, inactive_shutdown or
+        active_shutdown.
         """
         number = getattr(Transition, f'TRANSITION_{transition.upper()}')
         request = ChangeState.Request(transition=Transition(id=number))

@@ -166,6 +166,24 @@ def test_node_of_a_failed_test_is_heard(error, ros_domain_id, tmp_path, capsys):
     assert 'plots refused 9\n' not in said
 
 
+STUCK = """
+import ctypes
+from tracking_tools import peer
+
+peer.LONGEST_CLOSE = 1.0
+with peer.Peer({domain_id}) as stuck:
+    stuck.node.destroy_node = lambda: ctypes.PyDLL(None).sleep(3600)  # no Python runs meanwhile
+"""
+
+
+def test_peer_whose_middleware_hangs_ends_its_process(ros_domain_id):
+    """With the line where it hangs, rather than never."""
+    command = [sys.executable, '-c', STUCK.format(domain_id=ros_domain_id)]
+    ended = subprocess.run(command, timeout=60, check=False, capture_output=True, text=True)
+    assert ended.returncode == 1
+    assert 'in close' in ended.stderr
+
+
 def test_domain_is_not_given_away_while_a_node_lives_in_it(tmp_path):
     """A node that outlives its test, which was killed perhaps, does not talk into the next one."""
     command = [sys.executable, '-c', 'print("here", flush=True); import signal; signal.pause()']
