@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import replace
 
 import numpy as np
@@ -15,14 +16,24 @@ from radar_tracker.sector_clock import SectorClock
 from tracking_core.batches import Plots
 
 PERIOD, SECTORS = 2.4, 8
+STEP = PERIOD / SECTORS
 
 
-def sector(number, pause=0.0):
-    """Return five plots of this sector of an antenna that turns anticlockwise, without times."""
-    width = 2.0 * np.pi / SECTORS
-    azimuth = width * (number + np.random.default_rng(number).uniform(0.0, 1.0, 5))
-    stamp = PERIOD / SECTORS * number + pause
-    return replace(Plots.polar(np.full(5, stamp), np.full(5, 5e3), azimuth), stamp=stamp)
+def sector(number, pause=0.0, pace=1.0):
+    """Return 20 plots of this sector of an antenna that turns anticlockwise, without times."""
+    part = np.random.default_rng(number).uniform(0.0, 1.0, 20)
+    azimuth, stamp = 2.0 * np.pi / SECTORS * (number + part) * pace, STEP * number + pause
+    return replace(Plots.polar(np.full(20, stamp), np.full(20, 5e3), azimuth), stamp=stamp), part
+
+
+def learnt(pace=1.0):
+    """Return a clock that knows how the antenna turns."""
+    clock = SectorClock(ScanConfig(assembly='sector', period=PERIOD))
+    for number in range(40):
+        with contextlib.suppress(BadMessage):
+            clock.times(sector(number, pace=pace)[0])
+    assert clock.beam is not None
+    return clock
 
 
 @pytest.mark.parametrize(
@@ -39,18 +50,22 @@ def test_own_ship_is_asked_for_where_the_plots_were(reference, first, last):
 @pytest.mark.parametrize(('pause', 'is_known'), [(10.0 * PERIOD, True), (40.0 * PERIOD, False)])
 def test_after_a_minute_nobody_knows_where_the_antenna_points(pause, is_known):
     """It may have been switched off; a shorter pause is whole sectors that were lost."""
-    clock = SectorClock(ScanConfig(assembly='sector', period=PERIOD))
-    for number in range(40):
-        try:
-            clock.times(sector(number))
-        except BadMessage:
-            assert number < 30
-    later = sector(40, pause)
+    clock, (later, part) = learnt(), sector(40, pause)
     if is_known:
-        assert (np.abs(clock.times(later) - later.stamp - 0.15) <= 0.15).all()
+        np.testing.assert_allclose(clock.times(later), later.stamp + STEP * part, atol=0.1 * STEP)
     else:
         with pytest.raises(BadMessage, match='not known yet'):
             clock.times(later)
+
+
+@pytest.mark.parametrize('pace', [0.995, 1.005])
+def test_sectors_that_wander_are_followed(pace):
+    """An antenna a little slower or faster than its sectors: after 400 of them as at first."""
+    clock = learnt(pace)
+    for number in range(40, 440):
+        plots, part = sector(number, pace=pace)
+        off = clock.times(plots) - plots.stamp - STEP * part
+        assert np.abs(off).max() < 0.2 * STEP
 
 
 @pytest.mark.filterwarnings('error')
