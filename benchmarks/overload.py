@@ -26,7 +26,6 @@ from msg_adapters.table import Columns
 from tracking_tools.testing import NodeProcess, private_domain, python_node, TrackerProbe
 
 PLOTS, ALONE = 3000, 20  # in a message; messages that are answered one by one
-START = 1_000_000.0  # s, stamp at the begin
 FACTOR = 10.0
 FAREWELL = 20.0  # s for the answer to the last message
 MEGABYTE = 1e6

@@ -32,7 +32,6 @@ class RangeEstimates:
     """Where T tracks are, NaN where that is not observable."""
 
     id: Ints  # (T,)
-    time: Floats  # (T,) [s]
     observable: Bools  # (T,)
     range: Floats  # (T,) from the sensor [m]
     range_sd: Floats  # (T,) [m]
@@ -165,7 +164,7 @@ class Ranging:
             return np.where(observable.reshape(-1, *[1] * (values.ndim - 1)), values, np.nan)
 
         return RangeEstimates(
-            ids, time, observable, known(distance), known(sd),
+            ids, observable, known(distance), known(sd),
             known(np.hypot(state[:, 2], state[:, 3])), known(np.arctan2(state[:, 3], state[:, 2])),
             known(state), known(covariance),
         )  # fmt: skip

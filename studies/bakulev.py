@@ -9,7 +9,7 @@ Run ``python -m studies.bakulev``; it writes docs/results/bakulev.md with its fi
 
 from __future__ import annotations
 
-import argparse
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -28,11 +28,11 @@ from studies.b0 import (
     SPANS,
     TURN,
 )
-from studies.figures import about, at_least, Claim, intervals, table, template, wrapped
+from studies.command import write_report
+from studies.figures import about, at_least, Claim, intervals, table, template
 from tracking_core.batches import Floats
 from tracking_core.estimators import ImmAlphaBeta
 
-RESULT = Path(__file__).parent.parent / 'docs' / 'results' / 'bakulev.md'
 QUIET_GAINS = (0.20, 0.25, 0.30, 0.35, 0.40, 0.45)
 BUSY_GAINS = (0.60, 0.65, 0.70, 0.75, 0.80, 0.85, 0.90, 0.95)
 
@@ -148,13 +148,9 @@ def describe(runs: int, folder: Path, quiet: bool = True) -> str:
 
 def main() -> None:
     """Print and write the report."""
-    parser = argparse.ArgumentParser(description='Tables of [BAKULEV] on scenario B-0.')
-    parser.add_argument('--runs', type=int, default=500)
-    parser.add_argument('--output', type=Path, default=RESULT)
-    arguments = parser.parse_args()
-    report = describe(arguments.runs, arguments.output.parent, quiet=False)
-    arguments.output.write_text(wrapped(report))
-    print(report)
+    write_report(
+        'Tables of [BAKULEV] on scenario B-0.', 'bakulev', 500, partial(describe, quiet=False)
+    )
 
 
 if __name__ == '__main__':

@@ -9,8 +9,6 @@ the shared data are in it when they are there. Read ``courses.py`` for the cours
 
 from __future__ import annotations
 
-import argparse
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,11 +17,11 @@ from tqdm import tqdm
 from benchmarks.real_data import judge, preset
 from benchmarks.real_data import run as track
 from benchmarks.recordings import air_scene, air_tracks, data_folder, Recording
+from studies.command import write_report
 from studies.comparison import follow, JOINT, PAPER_GAINS, Row, ROWS
 from studies.courses import Course, courses
-from studies.figures import template, wrapped
+from studies.figures import template
 
-RESULT = Path(__file__).parent.parent / 'docs' / 'results' / 'estimators.md'
 TURNS = 150  # of each real aircraft
 HALF_HOUR = 180  # turns
 
@@ -142,14 +140,12 @@ def _extremes(results: dict[str, dict[str, Row]]) -> dict[str, Any]:
 
 def main() -> None:
     """Print and write the report."""
-    parser = argparse.ArgumentParser(description='All estimators on all courses.')
-    parser.add_argument('--runs', type=int, default=300)
-    parser.add_argument('--output', type=Path, default=RESULT)
-    arguments = parser.parse_args()
-    report = describe(arguments.runs, quiet=False)
-    arguments.output.parent.mkdir(parents=True, exist_ok=True)
-    arguments.output.write_text(wrapped(report))
-    print(report)
+    write_report(
+        'All estimators on all courses.',
+        'estimators',
+        300,
+        lambda runs, _: describe(runs, quiet=False),
+    )
 
 
 if __name__ == '__main__':

@@ -9,13 +9,14 @@ figures. Read ``k0.py`` for what the figures are.
 
 from __future__ import annotations
 
-import argparse
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from studies import pictures
-from studies.figures import about, at_most, Claim, intervals, table, template, wrapped
+from studies.command import write_report
+from studies.figures import about, at_most, Claim, intervals, table, template
 from studies.k0 import (
     ACCELERATIONS,
     BEGIN,
@@ -32,7 +33,6 @@ from studies.k0 import (
 from tracking_core.batches import Floats
 from tracking_core.fuzzy import KHACHATUROV
 
-RESULT = Path(__file__).parent.parent / 'docs' / 'results' / 'khachaturov_2002.md'
 FEW = 100  # runs of the paper
 _BETTER = 'fuzzy better'
 
@@ -152,13 +152,12 @@ def describe(runs: int, folder: Path, quiet: bool = True) -> str:
 
 def main() -> None:
     """Print and write the report."""
-    parser = argparse.ArgumentParser(description='Table of [KHACH02] on scenario K-0.')
-    parser.add_argument('--runs', type=int, default=2000)
-    parser.add_argument('--output', type=Path, default=RESULT)
-    arguments = parser.parse_args()
-    report = describe(arguments.runs, arguments.output.parent, quiet=False)
-    arguments.output.write_text(wrapped(report))
-    print(report)
+    write_report(
+        'Table of [KHACH02] on scenario K-0.',
+        'khachaturov_2002',
+        2000,
+        partial(describe, quiet=False),
+    )
 
 
 if __name__ == '__main__':

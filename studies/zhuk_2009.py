@@ -9,18 +9,17 @@ Run ``python -m studies.zhuk_2009``; it writes docs/results/zhuk_2009.md with it
 
 from __future__ import annotations
 
-import argparse
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from studies import pictures
-from studies.figures import about, at_least, at_most, Figures, intervals, table, template, wrapped
+from studies.command import write_report
+from studies.figures import about, at_least, at_most, Figures, intervals, table, template
 from studies.z0 import CONTACTS, figures, PERIOD, PLANES, play, Record, SEED, SETTLED
 from studies.z_scenes import joint_figures, position_errors, Z_0, Z_NEAR
 from tracking_core.batches import Floats, Ints
-
-RESULT = Path(__file__).parent.parent / 'docs' / 'results' / 'zhuk_2009.md'
 
 CLAIMS = (
     at_least('horizontal onset found', 0.98, 'horizontal onset found within 3 contacts'),
@@ -120,14 +119,10 @@ def describe(runs: int, folder: Path, quiet: bool = True) -> str:
 
 
 def main() -> None:
-    """Print and write the table."""
-    parser = argparse.ArgumentParser(description='Table of [ZHUK09] on scenario Z-0.')
-    parser.add_argument('--runs', type=int, default=500)
-    parser.add_argument('--output', type=Path, default=RESULT)
-    arguments = parser.parse_args()
-    report = describe(arguments.runs, arguments.output.parent, quiet=False)
-    arguments.output.write_text(wrapped(report))
-    print(report)
+    """Print and write the report."""
+    write_report(
+        'Table of [ZHUK09] on scenario Z-0.', 'zhuk_2009', 500, partial(describe, quiet=False)
+    )
 
 
 if __name__ == '__main__':

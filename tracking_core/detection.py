@@ -16,7 +16,7 @@ from tracking_core.batches import Floats, Ints, Tracks
 _WEIGHT = 10.0  # looks that what is usual counts for
 _CHANCE = 1.0  # a plot fewer than expected says nothing yet
 _LEAST = 2.0 / 3.0  # of what is usual: what has left is not followed for longer than a dozen looks
-_REMEMBERED = 60  # looks in `Tracks.history`
+REMEMBERED = 60  # looks in `Tracks.history`, as bits
 _STRANGE = 0.1  # strange plots expected in the gate, with which the looks count half
 
 
@@ -31,7 +31,7 @@ def detection_probability(tracks: Tracks, usual: Floats, strange: Floats) -> Flo
     """
     hits = ones(tracks.history)
     is_full = tracks.hits > hits  # the first looks are forgotten
-    looks = np.where(is_full, _REMEMBERED, lengths(tracks.history))
+    looks = np.where(is_full, REMEMBERED, lengths(tracks.history))
     trust = _STRANGE / (_STRANGE + strange)
     own = (_WEIGHT * usual + trust * hits + _CHANCE) / (_WEIGHT + trust * looks)
     return np.asarray(np.minimum(np.maximum(own, _LEAST * usual), usual))

@@ -99,8 +99,7 @@ class Rules:
         return np.asarray((area @ values) / area.sum(axis=1))
 
 
-NAMES = ('very small', 'small', 'medium', 'large')
-KHACHATUROV = Rules(
+KHACHATUROV = Rules(  # very small, small, medium, large
     condition=FuzzySets((0.0, 2.0, 4.0, 6.0)),
     conclusion=FuzzySets((0.0, 0.2, 0.5, 1.0)),
     table=((0, 2, 3, 3), (1, 2, 3, 3), (2, 2, 3, 3), (2, 3, 3, 3)),

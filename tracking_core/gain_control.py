@@ -64,7 +64,7 @@ class ControlledGain:
         alpha: Floats,
     ) -> Mixture:
         """Correct the filter with gains alpha (T,); the answer has one mode."""
-        single, first, gain = quiet(mixture), of_mode(innovations, 0), alpha[:, None]
+        single, first, gain = quiet(mixture), of_quiet(innovations), alpha[:, None]
         after = self.gains.update(single, track, first, association, gain)
         return self.gains.admit_lag(after, single, track, first, association, gain)
 
@@ -72,7 +72,7 @@ class ControlledGain:
         self, mixture: Mixture, track: Ints, innovations: Innovations, alpha: Floats
     ) -> Floats:
         """Return nu^T S^-1 nu (P,) with the S of filters settled at alpha (T,) on plot noise."""
-        single, first = quiet(mixture), of_mode(innovations, 0)
+        single, first = quiet(mixture), of_quiet(innovations)
         R = self.gains.noise_of_pairs(single, track, first)
         nu = first.innovation[:, 0, : self.axes]
         squared = (nu * np.linalg.solve(R, nu[..., None])[..., 0]).sum(axis=1)
@@ -97,6 +97,18 @@ def quiet(mixture: Mixture) -> Mixture:
     )  # fmt: skip
 
 
+def of_quiet(innovations: Innovations) -> Innovations:
+    """Return the innovations without those of the mode that opens the gates."""
+    return Innovations(
+        innovations.innovation[:, :1],
+        innovations.covariance[:, :1],
+        innovations.distance[:, :1],
+        innovations.log_likelihood[:, :1],
+        innovations.cross_covariance[:, :1],
+        innovations.noise,
+    )
+
+
 def two_modes(single: Mixture, raised: Floats) -> Mixture:
     """Return a filter as two equal modes, the second with probability `raised` (T,)."""
     return Mixture(
@@ -104,19 +116,6 @@ def two_modes(single: Mixture, raised: Floats) -> Mixture:
         np.repeat(single.covariance, 2, axis=1),
         np.stack([1.0 - raised, raised], axis=1),
         single.memory,
-    )
-
-
-def of_mode(innovations: Innovations, mode: int) -> Innovations:
-    """Return the innovations of one mode."""
-    only = slice(mode, mode + 1)
-    return Innovations(
-        innovations.innovation[:, only],
-        innovations.covariance[:, only],
-        innovations.distance[:, only],
-        innovations.log_likelihood[:, only],
-        innovations.cross_covariance[:, only],
-        innovations.noise,
     )
 
 

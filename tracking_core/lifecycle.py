@@ -11,11 +11,11 @@ import numpy as np
 
 from tracking_core.batches import Bools, Floats, Mixture, Tracks
 from tracking_core.chances import MORE_LIKELY_THAN_NOT, TINY
-from tracking_core.detection import lengths, ones
+from tracking_core.detection import lengths, ones, REMEMBERED
 from tracking_core.lifecycle_config import ErrorRatioConfig, ExistenceConfig, MOfNConfig
 from tracking_core.rows import change
 
-_HISTORY = (1 << 60) - 1  # looks remembered as bits
+_HISTORY = (1 << REMEMBERED) - 1
 
 
 class Lifecycle(Protocol):

@@ -38,7 +38,7 @@ def share_plots(
     scan: Scan,
     setup: Setup,
     density: Density,
-    common: Common | None = None,
+    common: Common | None,
 ) -> Share:
     """
     Share the plots among the tracks, and judge from them whether the tracks exist.

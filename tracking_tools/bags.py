@@ -50,11 +50,11 @@ def absolute(topic: str) -> str:
     return '/' + topic.lstrip('/')
 
 
-def reliable(depth: int = 10) -> Qos:
-    """Quality of service of our publishers: reliable, volatile, keep last ``depth``."""
+def reliable() -> Qos:
+    """Quality of service of our publishers: reliable, volatile, keep last 10."""
     return Qos(
         history=QosHistory.KEEP_LAST,
-        depth=depth,
+        depth=10,
         reliability=QosReliability.RELIABLE,
         durability=QosDurability.VOLATILE,
         deadline=_UNLIMITED,
@@ -151,15 +151,15 @@ class BagWriter:
             self._unfinished.rename(self._path)
         self._workshop.cleanup()
 
-    def announce(self, topic: str, msgtype: str, qos: Qos | None = None) -> Connection:
-        """Add a topic, with the quality of service its publisher offers; names become absolute."""
+    def announce(self, topic: str, msgtype: str) -> Connection:
+        """Add a topic, with the quality of service of our publishers; names become absolute."""
         topic = absolute(topic)
         if topic not in self._connections:
             self._connections[topic] = self._writer.add_connection(
                 topic,
                 msgtype,
                 typestore=TYPESTORE,
-                offered_qos_profiles=[reliable() if qos is None else qos],
+                offered_qos_profiles=[reliable()],
             )
         return self._connections[topic]
 

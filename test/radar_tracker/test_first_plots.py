@@ -84,6 +84,27 @@ def test_heights_that_are_seldom_are_believed():
     assert tracker.tracks.confirmed.any()
 
 
+@pytest.mark.parametrize(
+    ('known', 'dimensions'),
+    [
+        ([0] * 10 + [1], 3),
+        ([1] + [0] * 33, 3),
+        ([1] + [0] * 34, 2),
+        ([1] + [0] * 34 + [1], 2),
+        ([1] + [0] * 30 + [1] + [0] * 30, 3),
+    ],
+    ids=['late', 'seldom', 'never again', 'once more', 'now and then'],
+)
+def test_a_hundred_false_plots_in_a_row_without_height_make_a_radar_2d(known, dimensions):
+    """Three in a look, nowhere twice, and no contact: the height of one is known, or of none."""
+    tracker, rng = RadarTracker(RadarTrackerConfig()), np.random.default_rng(1)
+    for number, has_height in enumerate(known):
+        at = rng.uniform(-1e5, 1e5, (3, 3))
+        at[has_height:, 2] = np.nan
+        tracker.track(Plots.cartesian(np.full(3, 4.0 * number), at))
+    assert tracker.radar.dimensions == dimensions
+
+
 def test_plot_at_the_least_range_is_a_plot():
     """As the only plot so far it leaves no depth to count false plots in."""
     tracker = tracker_of(sensor__range_min=100.0)

@@ -113,6 +113,18 @@ def test_turn_that_never_ends_takes_no_more_memory():
     assert sum(kept) > 1200
 
 
+@pytest.mark.parametrize('step', [0.3, 0.7])
+def test_turn_is_whole_with_its_last_sector(step):
+    """Though the stamps of this century, rounded as they are, do not quite make up its time."""
+    turns, found = RadarTracker(config_of(**{'scan.period': SECTORS * step})).turns, []
+    for number in range(10 * SECTORS):
+        time = np.full(1, 1_700_000_000.0 + step * number)
+        plots = replace(Plots.polar(time, np.ones(1), np.ones(1)), stamp=time[0])
+        found.append(turns.add(plots, 0.0))
+    assert [turn is not None for turn in found[SECTORS:]] == 9 * (7 * [False] + [True])
+    assert all(len(turn) == SECTORS for turn in found[SECTORS:] if turn is not None)
+
+
 def test_turns_with_more_plots_than_a_message_may_have_end_no_track():
     """They come in parts."""
     radar = session(max_plots=10)

@@ -272,21 +272,3 @@ def test_reset_forgets_how_the_antenna_turned():
     assert radar.instrument.tracker.sectors.beam is not None
     radar.reset()
     assert radar.instrument.tracker.sectors.beam is None
-
-
-def test_own_ship_is_asked_for_where_the_plots_were():
-    """Not only at the stamp: transforms would know nothing of the rest."""
-    plots = replace(Plots.polar(np.full(2, 7.0), np.ones(2), np.ones(2)), stamp=7.0)
-    span = SectorClock(ScanConfig(period=4.0)).span(plots)
-    assert (span.min(), span.max()) == (7.0, 11.0)
-    assert set(SectorClock(ScanConfig(assembly='sector')).span(plots)) == {7.0}
-
-
-@pytest.mark.filterwarnings('error')
-def test_stamps_without_a_rhythm_are_no_error():
-    """Between a step of 0.1 s and those of 10 s lies none that is usual; no time is NaN for it."""
-    clock = SectorClock(ScanConfig(assembly='sector'))
-    for stamp in EPOCH + np.cumsum([0.0, 0.1, 10.0, 10.1, 10.2]):
-        one = replace(Plots.polar(np.full(1, stamp), np.full(1, 5e3), np.ones(1)), stamp=stamp)
-        told(clock, one)
-        assert np.isfinite(clock.span(one)).all()

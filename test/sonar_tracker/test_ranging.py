@@ -164,6 +164,14 @@ def test_few_marks_tell_nothing() -> None:
     assert found.observable[0]
 
 
+def test_mark_is_heard_once() -> None:
+    """A track that has left the sector keeps its last look, cycle by cycle: that is no new one."""
+    ranging, one = Ranging(RangingConfig()), np.ones(1)
+    for time in (2.0, 4.0, 4.0, 4.0):
+        ranging.hear(np.array([7]), time * one, 0.3 * one, one / SD**2, np.zeros((1, 2)))
+    assert ranging.history.read(np.array([0])).count.tolist() == [2]
+
+
 def test_no_tracks_are_legal() -> None:
     """Nothing is followed: nothing is told, and unknown ids are not observable."""
     ranging, nothing = Ranging(RangingConfig()), np.zeros(0)
@@ -185,6 +193,16 @@ def test_tracks_are_fitted_in_turn() -> None:
         ranging.fit_in_turn()
         fitted += [set(np.flatnonzero(ranging.courses.time != before).tolist())]
     assert fitted == [{0, 1}, {2, 3}, {0, 4}, {1, 2}, {0, 3}]
+
+
+def test_tracks_that_hear_nothing_keep_no_other_from_its_fit() -> None:
+    """Two are silent after their first fit: the other two are fitted in every cycle."""
+    ranging = Ranging(RangingConfig(tracks_per_cycle=2))
+    for k in range(6):
+        heard = np.array([k < 2, k < 2, True, True]).astype(float)
+        ranging.hear(np.arange(4), np.full(4, float(k)), np.zeros(4), heard, np.zeros((4, 2)))
+        ranging.fit_in_turn()
+    assert ranging.courses.time[2:].tolist() == [5.0, 5.0]
 
 
 def test_tracks_keep_their_own_ranges() -> None:

@@ -120,14 +120,15 @@ def test_sector_that_always_has_all_the_rain_is_no_jump() -> None:
             assert plots_a_look(known) == pytest.approx(100.0, rel=0.15)
 
 
+@pytest.mark.parametrize('width', [np.pi / 2.0, 0.13])
 @pytest.mark.parametrize('parts', [1, 2, 5])
-def test_look_is_at_the_sector_that_the_sensor_sees(parts: int) -> None:
-    """A quarter of the turn with 60 plots a look, in a message or more, is not four times that."""
-    radar = Radar(replace(SENSOR, sector_width=np.pi / 2.0), 2, is_polar=True)
-    known, part = NOTHING, np.pi / 2.0 / parts
+def test_look_is_at_the_sector_that_the_sensor_sees(parts: int, width: float) -> None:
+    """A quarter of the turn or a spoke and a third, with 60 plots a look in a message or more."""
+    radar = Radar(replace(SENSOR, sector_width=width), 2, is_polar=True)
+    known, part = NOTHING, width / parts
     for k in range(20 * parts):
-        first = -np.pi / 4.0 + k % parts * part
-        seen = replace(sector(first, part), sector_width=np.pi / 2.0)
+        first = -0.5 * width + k % parts * part
+        seen = replace(sector(first, part), sector_width=width)
         azimuth = first + np.linspace(0.05, 0.95, 60 // parts) * part
         known = look(known, azimuth, seen, radar)
     assert plots_a_look(known, radar) == pytest.approx(60.0, rel=0.02)

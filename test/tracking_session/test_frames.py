@@ -126,6 +126,17 @@ def test_own_ship_that_comes_late_starts_anew_in_its_frame(said):
     assert len(said) == 2
 
 
+def test_own_ship_that_the_plots_do_not_need_ends_no_track(said):
+    """Places in the tracking frame stay where they are; directions were from elsewhere."""
+    for polar in (False, True):
+        frame = TrackingFrame('', False, said.append)
+        frame.check_plots('map', polar)
+        for time in (0.0, 0.1):
+            with pytest.raises(BadMessage, match='is new'):
+                frame.check_ownship('map', time)
+        assert frame.check_ownship('map', 0.2) is polar
+
+
 @pytest.mark.parametrize('messages', [
     [('odom', 1.0)] * 9,
     [('odom', 1.0), ('map', 2.0)] * 5,

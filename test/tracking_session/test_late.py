@@ -118,6 +118,23 @@ def test_ids_stay_when_a_second_message_is_late(seed) -> None:
     assert (table['status'] == 1).sum() == 12
 
 
+def test_tracks_that_begin_once_more_keep_their_ids() -> None:
+    """Told after the first and the third message, they begin with the second when it comes."""
+    place = 30e3 * np.stack(np.meshgrid(range(4), range(3)), axis=-1).reshape(-1, 2)
+    messages = [
+        from_columns({'x': place[:, 0], 'y': place[:, 1]}, 1_000.0 + PERIOD * k, 'radar', TYPES)
+        for k in range(4)
+    ]
+    first, told, after = run(radar(), [messages[k] for k in (0, 2, 1, 3)])
+    assert (len(first['id']), len(told['id'])) == (0, 12)
+    assert (after['hits'] == 4).all()
+    ids = [
+        {(x, y): n for n, x, y in zip(t['id'], t['x'].round(-3), t['y'].round(-3), strict=True)}
+        for t in (told, after)
+    ]
+    assert ids[0] == ids[1]
+
+
 def test_stamps_of_the_tables_rise() -> None:
     """A late message is not answered; the next table shows what it changed."""
     messages = scans(1, 12)

@@ -66,6 +66,19 @@ def test_accept_lets_a_place_be_as_far_off_as_its_covariance_says():
         guard.accept(sample(STEP * 100, 1500.0, sd=100.0))
 
 
+def test_accept_believes_a_new_pace_that_the_twist_explains():
+    """From rest to 600 m/s in a second, half of it on the way; without twist it is a leap."""
+    for twist in (600.0, 0.0):
+        guard = LeapGuard(100.0, 2.0)
+        for time in (0.0, 1.0, 2.0):
+            guard.accept(sample(time, 0.0))
+        if twist:
+            assert not guard.accept(sample(3.0, 300.0, twist))
+        else:
+            with pytest.raises(BadMessage, match='is 300 m from'):
+                guard.accept(sample(3.0, 300.0))
+
+
 def test_accept_never_believes_places_that_do_not_agree():
     """A receiver that has gone wild moves nobody."""
     guard = LeapGuard(100.0, 20.0)

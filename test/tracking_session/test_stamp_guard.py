@@ -87,6 +87,16 @@ def test_slow_scans_in_fast_playback_are_believed():
     assert answers[3:] == ['reset', 'used', 'used', 'used', 'used']
 
 
+def test_slow_antenna_may_lose_scans_in_fast_playback():
+    """More than the threshold is missing: at first, after a restart and in the second round."""
+    guard = StampGuard(10.0)
+    assert feed(guard, [100.0, 108.0, 132.0]) == ['used'] * 3
+    guard.recall({'newest': 108.0, 'interval': 8.0}, 0.0)
+    assert feed(guard, [132.0]) == ['used']
+    short = StampGuard(10.0)
+    assert feed(short, [100.0, 104.0, 108.0, 100.0, 104.0, 124.0])[4:] == ['reset', 'used']
+
+
 def test_clock_that_says_so_is_believed_at_once():
     """When simulated time went back, the first earlier stamp begins anew."""
     guard = StampGuard(10.0)

@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 
+from msg_adapters.bad_message import BadMessage
 from msg_adapters.row_checks import MAX_OFFSET
 from radar_tracker.node_config import radar_node_config
 from tracking_core.platform import Platform
@@ -13,17 +14,26 @@ from tracking_session.whereabouts import Whereabouts
 SPEED = 10.0  # m/s
 
 
-def sailed(rate, duration):
-    """Return the path of a ship that told where it was at a rate [Hz] for so long [s]."""
+def sample(time, leap=0.0):
+    """Return where a ship is that sails along x, or so far beside that [m]."""
+    return Platform(
+        time=np.array([time]), position=np.array([[SPEED * time, leap, 0.0]]),
+        orientation=np.array([[0.0, 0.0, 0.0, 1.0]]), velocity=np.array([[SPEED, 0.0, 0.0]]),
+        position_covariance=np.zeros((1, 3, 3)), yaw_variance=np.zeros(1),
+    )  # fmt: skip
+
+
+def sailing(rate, duration):
+    """Return what is known of a ship that told where it was at a rate [Hz] for so long [s]."""
     whereabouts = Whereabouts(radar_node_config())
     for time in np.arange(0.0, duration, 1.0 / rate):
-        sample = Platform(
-            time=np.array([time]), position=np.array([[SPEED * time, 0.0, 0.0]]),
-            orientation=np.array([[0.0, 0.0, 0.0, 1.0]]), velocity=np.array([[SPEED, 0.0, 0.0]]),
-            position_covariance=np.zeros((1, 3, 3)), yaw_variance=np.zeros(1),
-        )  # fmt: skip
-        whereabouts.take(sample, time)
-    return whereabouts.platform
+        whereabouts.take(sample(time), time)
+    return whereabouts
+
+
+def sailed(rate, duration):
+    """Return the path of that ship."""
+    return sailing(rate, duration).platform
 
 
 @pytest.mark.parametrize('rate', [200.0, 1_000.0])
@@ -46,3 +56,24 @@ def test_path_of_fast_odometry_is_bounded() -> None:
 def test_path_of_slow_odometry_has_every_sample(rate) -> None:
     """Up to 125 Hz nothing is left out."""
     np.testing.assert_array_equal(sailed(rate, 10.0).time, np.arange(0.0, 10.0, 1.0 / rate))
+
+
+def test_any_place_is_believed_after_a_reset() -> None:
+    """As after a start: none of those before it counts."""
+    whereabouts = sailing(10.0, 3.0)
+    with pytest.raises(BadMessage, match='from where the last ones led'):
+        whereabouts.take(sample(3.0, leap=5e3), 3.0)
+    whereabouts.reset()
+    assert not whereabouts.take(sample(3.1, leap=5e3), 3.1)
+    assert whereabouts.platform.time.tolist() == [3.1]
+
+
+def test_path_begins_anew_at_once_where_the_clock_went_back() -> None:
+    """Wherever the ship was at that time; without the clock's word two samples are refused."""
+    for leap in (0.0, 5e3):
+        whereabouts = sailing(10.0, 30.0)
+        with pytest.raises(BadMessage, match='behind the last one'):
+            whereabouts.take(sample(1.0, leap), 30.0)
+        whereabouts.clock_moved()
+        assert not whereabouts.take(sample(1.1, leap), 30.0)
+        assert whereabouts.platform.time.tolist() == [1.1]

@@ -28,19 +28,6 @@ from tracking_tools.scenarios.passes import place
 from tracking_tools.scenarios.traffic import en_route
 
 ROTATING = [name for name in SCENARIOS if not build(name).radar.is_staring]
-EVERYTHING = Legs(
-    (1.0, -2.0, 3.0),
-    speed=100.0,
-    course=0.7,
-    climb_rate=-1.0,
-    start=5.0,
-    legs=(
-        Leg(10.0),
-        Leg(20.0, turn_rate=0.05, acceleration=1.5, vertical_acceleration=0.3),
-        Leg(30.0, turn_rate=1e-5, acceleration=-0.5),
-        Leg(8.0, turn_rate=-0.02, climb_rate=4.0),
-    ),
-)
 
 
 def played(scenario, seed=7, sectors=1):

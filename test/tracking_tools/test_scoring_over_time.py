@@ -14,7 +14,7 @@ from tracking_tools.scoring import match, Stretches, TrackRows, Truth
 from tracking_tools.scoring.consistency import consistency
 from tracking_tools.scoring.continuity import find_changes
 from tracking_tools.scoring.matching import candidates
-from tracking_tools.scoring.onsets import false_alarms, find_onsets
+from tracking_tools.scoring.onsets import false_alarms, onset_delays
 from tracking_tools.scoring.ospa import distances_of_scans, ospa_of_distances
 from tracking_tools.scoring.segments import holders, relative_tracking_time, segment_lengths
 from tracking_tools.scoring.siap import siap
@@ -182,7 +182,7 @@ def test_siap_counts_every_track_at_its_nearest_contact() -> None:
     assert_allclose((found.spuriousness, found.position_accuracy), (1.0 / 3.0, 2.0))
 
 
-def test_find_onsets_measures_from_the_beginning_of_the_turn() -> None:
+def test_onset_delays_are_measured_from_the_beginning_of_the_turn() -> None:
     """The turn begins between samples 5 and 6 and is told in row 8: 2.5 s; the next never."""
     real = truth((7, 0.0, range(20)))
     turning = np.isin(np.arange(20), [6, 7, 8, 9, 15, 16, 17])
@@ -190,8 +190,5 @@ def test_find_onsets_measures_from_the_beginning_of_the_turn() -> None:
     tracks = rows(*((k, 1, 0.0, 0.0) for k in range(20)))
     probability = np.where(np.isin(np.arange(20), [3, 8, 9, 12]), 0.9, 0.1)
     matches = match(tracks, real, RADIUS)
-    onsets = find_onsets(tracks, probability, matches, real)
-    assert_allclose(onsets.begin, [5.5, 14.5])
-    assert_allclose(onsets.delay, [2.5, np.nan])
-    assert (onsets.told, onsets.mean) == (1, 2.5)
+    assert_allclose(onset_delays(tracks, probability, matches, real), [2.5, np.nan])
     assert_allclose(false_alarms(probability, matches), 2.0 / 13.0)

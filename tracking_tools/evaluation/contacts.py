@@ -11,7 +11,7 @@ from tracking_tools.evaluation.judgement import ContactJudgement
 from tracking_tools.evaluation.recorded import Recorded
 from tracking_tools.scoring import Matches, Stretches, track_error
 from tracking_tools.scoring.continuity import find_changes
-from tracking_tools.scoring.onsets import find_onsets
+from tracking_tools.scoring.onsets import onset_delays
 from tracking_tools.scoring.segments import holders, NOBODY, relative_tracking_time
 from tracking_tools.scoring.stretches import spans
 
@@ -37,7 +37,7 @@ def _contact(
     seen = (end >= recorded.starts[0]) & (begin < recorded.starts[-1])
     begin = np.maximum(begin[seen], recorded.starts[0])
     end = np.minimum(end[seen], recorded.starts[-1])
-    onsets = find_onsets(recorded.rows, recorded.manoeuvre_probability, mine, path)
+    delays = onset_delays(recorded.rows, recorded.manoeuvre_probability, mine, path)
     changed = np.diff(mine.track, prepend=NOBODY) != 0
     return ContactJudgement(
         contact=contact,
@@ -49,7 +49,7 @@ def _contact(
         tracks=tuple(mine.track[changed].tolist()),
         relative_tracking_time=relative_tracking_time(ids),
         time_to_confirm=max(_first(recorded, mine) - float(begin[0]), 0.0) if len(mine) else NAN,
-        onset_delays=tuple(onsets.delay.tolist()),
+        onset_delays=tuple(delays),
         accuracy=track_error(recorded.rows, mine, recorded.has_velocity),
     )
 

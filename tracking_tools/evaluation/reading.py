@@ -34,9 +34,9 @@ from tracking_tools.track_table import check_table, NEEDED
 def read_recorded(
     tracks: Path | str,
     truth: Path | str,
-    rules: Sequence[str] = (),
-    sensor: str | None = None,
-    turning: float = 0.014,
+    rules: Sequence[str],
+    sensor: str | None,
+    turning: float,
 ) -> Recorded:
     """
     Return tracks and truth of bags.

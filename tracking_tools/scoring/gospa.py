@@ -58,7 +58,7 @@ def gospa(
 
 
 def gospa_of_distances(
-    distance: Floats, cutoff: float = 1000.0, power: float = 2.0, alpha: float = 2.0
+    distance: Floats, cutoff: float, power: float = 2.0, alpha: float = 2.0
 ) -> GospaParts:
     """Return the metric from the distances (N, M) of estimates and contacts."""
     N, M = distance.shape

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from tracking_core.batches import Floats
@@ -18,28 +16,13 @@ SURE = 0.5  # manoeuvre probability that counts as told
 QUIET = 3  # samples straight before, and turning after, the onset of a manoeuvre
 
 
-@dataclass(frozen=True)
-class Onsets:
-    """Manoeuvres of contacts that a track was on, and when it told of them."""
-
-    begin: Floats  # (Q,) [s]
-    delay: Floats  # (Q,) from the onset to the first row that tells [s], NaN: not told in the turn
-
-    @property
-    def mean(self) -> float:
-        """Mean delay of those that were told [s]."""
-        told = self.delay[np.isfinite(self.delay)]
-        return float(told.mean()) if len(told) else NAN
-
-    @property
-    def told(self) -> int:
-        """How many were told."""
-        return int(np.isfinite(self.delay).sum())
-
-
-def find_onsets(rows: TrackRows, probability: Floats, matches: Matches, contact: Truth) -> Onsets:
+def onset_delays(
+    rows: TrackRows, probability: Floats, matches: Matches, contact: Truth
+) -> list[float]:
     """
-    Return the manoeuvres of one contact.
+    Return the delay [s] of each manoeuvre of one contact that a track was on.
+
+    It is the time from the onset to the first row that tells, NaN: none did in the turn.
 
     Parameters
     ----------
@@ -54,15 +37,14 @@ def find_onsets(rows: TrackRows, probability: Floats, matches: Matches, contact:
 
     """
     time, told = rows.time[matches.row], probability[matches.row] >= SURE
-    begin, delay = [], []
+    delays = []
     for first, last in zip(*_turns(contact), strict=True):
         onset = 0.5 * (contact.time[first - 1] + contact.time[first])
         inside = (time >= onset) & (time <= contact.time[last])
         if inside.any():
             tells = time[inside & told]
-            begin.append(onset)
-            delay.append(tells.min() - onset if len(tells) else NAN)
-    return Onsets(np.array(begin), np.array(delay))
+            delays.append(float(tells.min() - onset) if len(tells) else NAN)
+    return delays
 
 
 def _turns(contact: Truth) -> tuple[list[int], list[int]]:

@@ -17,7 +17,7 @@ from tracking_tools.sweeping.figures import SHOWN
 from tracking_tools.sweeping.table import Case
 
 
-def draw_sweep(cases: Sequence[Case], path: Path, shown: str = 'gospa') -> None:
+def draw_sweep(cases: Sequence[Case], path: Path, shown: str) -> None:
     """
     Draw a figure over the first parameter that changes; a line for each value of the others.
 

@@ -161,7 +161,7 @@ def settings_of(swept: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
 
 def tasks_of(
     sources: Sequence[Source], runs: int, settings: Sequence[Values], fixed: Values, sensor: str,
-    yardstick: Yardstick, version: str, rules: Sequence[str] = (),
+    yardstick: Yardstick, version: str, rules: Sequence[str],
 ) -> Iterator[tuple[Values, Task]]:  # fmt: skip
     """
     Yield each setting with each of its runs; a recording is run once, whatever the runs.
