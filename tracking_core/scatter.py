@@ -21,7 +21,9 @@ from tracking_core.space import Space
 
 _EVEN = 1.5  # times as long as the other one, a step may be
 _MOST_TRACKS = 100  # are followed a look
-_REMEMBERED = 500  # bends
+_REMEMBERED = 300  # bends
+_BURST = 50  # bends that are learnt at a time, once so many are known
+_REST, _LONGEST = 3.0, 300.0  # times as long as that took nothing is learnt, at most so long [s]
 _FEWEST, _FEWEST_TRACKS = 100, 3  # bends, and tracks that they are of, which tell what is usual
 _MEDIAN = 0.6745  # of |x|, x a standard Gaussian
 BELIEVED = 1.5  # times as far as told, noise is as told: contacts turn, and few bends tell little
@@ -36,6 +38,12 @@ class Followed:
     time: Floats  # (N, 2) [s], NaN: no plot yet
     position: Floats  # (N, d, 2)
     covariance: Floats  # (N, d, d, 2)
+
+    @staticmethod
+    def none(d: int) -> Followed:
+        """Return no tracks, of plots with d coordinates."""
+        none = np.zeros(0, np.int64)
+        return Followed(none, np.zeros((0, 2)), np.zeros((0, d, 2)), np.zeros((0, d, d, 2)))
 
 
 @dataclass(frozen=True)
@@ -52,13 +60,14 @@ class Scatter:
 
     followed: Followed
     bends: Bends
+    new: int = 0  # bends since it rested
+    began: float = -np.inf  # to follow tracks [s]
+    until: float = -np.inf  # it rests, since learning costs a tenth of a scan [s]
 
     @staticmethod
     def none(d: int) -> Scatter:
         """Return what is known of plots with d coordinates before any came."""
-        none, nothing = np.zeros(0, np.int64), np.zeros((0, 2))
-        followed = Followed(none, nothing, np.zeros((0, d, 2)), np.zeros((0, d, d, 2)))
-        return Scatter(followed, Bends(none, np.zeros((0, d))))
+        return Scatter(Followed.none(d), Bends(np.zeros(0, np.int64), np.zeros((0, d))))
 
     def learn(self, owner: Ints, scan: Scan, living: Tracks, space: Space) -> Scatter:
         """
@@ -76,23 +85,25 @@ class Scatter:
             Where plots are.
 
         """
+        end = scan.coverage.end_time
+        if end < self.until:
+            return self
         told = np.isfinite(scan.position).all(axis=1)
         ids, plot = np.unique(np.where(told, owner, 0), return_index=True)
         ids, plot = ids[ids > 0][:_MOST_TRACKS], plot[ids > 0][:_MOST_TRACKS]
         if len(ids) == 0:
             return self
         old = take(self.followed, np.isin(self.followed.id, living.id))
+        began = self.began if len(old.id) else end
         _, before, now = np.intersect1d(old.id, ids, assume_unique=True, return_indices=True)
-        known = take(old, before)
-        three = Followed(
-            known.id,
-            np.concatenate([known.time, scan.time[plot[now], None]], axis=1),
-            np.concatenate([known.position, scan.position[plot[now], :, None]], axis=2),
-            np.concatenate([known.covariance, scan.covariance[plot[now], :, :, None]], axis=3),
-        )
-        bends = _bends(three, scan.sensor_position[plot[now]], np.array(scan.raised), space)
-        bends = take(concatenate(self.bends, bends), slice(-_REMEMBERED, None))
-        return Scatter(_follow_on(old, before, ids, plot, scan), bends)
+        three = _with_third(take(old, before), plot[now], scan)
+        found = _bends(three, scan.sensor_position[plot[now]], np.array(scan.raised), space)
+        bends = take(concatenate(self.bends, found), slice(-_REMEMBERED, None))
+        new = self.new + len(found.track)
+        if new >= _BURST and len(bends.track) == _REMEMBERED:
+            rest = min(_REST * (end - began), _LONGEST)
+            return Scatter(Followed.none(scan.position.shape[1]), bends, until=end + rest)
+        return Scatter(_follow_on(old, before, ids, plot, scan), bends, new, began)
 
     @cached_property
     def ratio(self) -> Floats:
@@ -118,6 +129,16 @@ class Scatter:
         factor = np.where(ratio > BELIEVED, np.minimum(ratio, _MOST), 1.0)
         along, left, up = [factor.max()] * 3 if is_round else [*factor, 1.0, 1.0][:3]
         return float(along), float(left), float(up)
+
+
+def _with_third(known: Followed, plot: Ints, scan: Scan) -> Followed:
+    """Return three plots of tracks (N,), with these rows of the scan as the last ones."""
+    return Followed(
+        known.id,
+        np.concatenate([known.time, scan.time[plot, None]], axis=1),
+        np.concatenate([known.position, scan.position[plot, :, None]], axis=2),
+        np.concatenate([known.covariance, scan.covariance[plot, :, :, None]], axis=3),
+    )
 
 
 def _follow_on(old: Followed, before: Ints, ids: Ints, plot: Ints, scan: Scan) -> Followed:

@@ -24,7 +24,7 @@ def scan_of(time, position, covariance):
     M = len(time)
     return Scan(
         time, position, covariance, np.full(M, np.nan), np.ones(M), np.full(M, np.nan), np.ones(M),
-        np.tile(SENSOR, (M, 1)), np.zeros((M, 3)), Coverage(0.0, 1.0), 1.0,
+        np.tile(SENSOR, (M, 1)), np.zeros((M, 3)), Coverage(time[0], time[0]), 1.0,
     )  # fmt: skip
 
 
@@ -116,3 +116,20 @@ def test_bearings_go_on_over_the_cut():
         scan = scan_of(np.array([float(time)]), np.array([[bearing]]), noise)
         scatter = scatter.learn(np.array([1]), scan, one, ANGLES)
     assert_allclose(scatter.bends.size, 0.0, atol=1e-4)
+
+
+def test_it_rests_once_it_knows_enough_and_goes_on_to_learn():
+    """Four looks in five cost nothing; what it knows of the noise stays meanwhile."""
+    scatter = learnt(np.ones(3), looks=80)
+    assert scatter.until > -np.inf
+    assert (
+        scatter.learn(np.ones(1), scan_of(*nowhere(scatter.until - 1.0)), None, POINTS) is scatter
+    )
+    one = SimpleNamespace(id=np.array([1]))
+    later = scatter.learn(np.ones(1, int), scan_of(*nowhere(scatter.until + 1.0)), one, POINTS)
+    assert later.followed.id.tolist() == [1]
+
+
+def nowhere(time):
+    """Return time, place and covariance of a plot."""
+    return np.array([time]), np.array([[1e4, 0.0, 100.0]]), np.eye(3)[None]
