@@ -15,15 +15,16 @@ from functools import cached_property
 
 import numpy as np
 
-from tracking_core.batches import Floats, Ints, Scan, Tracks
-from tracking_core.rows import concatenate, take
+from tracking_core.batches import Floats, Ints, Scan
+from tracking_core.rows import change, concatenate, take
 from tracking_core.space import Space
 
+_LOOKS = 10  # are learnt from at a time
 _EVEN = 1.5  # times as long as the other one, a step may be
-_MOST_TRACKS = 100  # are followed a look
+_MOST_TRACKS = 30  # are followed a message, the oldest ones
+_MOST_PLOTS = 3000  # of them all
 _REMEMBERED = 300  # bends
-_BURST = 50  # bends that are learnt at a time, once so many are known
-_REST, _LONGEST = 3.0, 300.0  # times as long as that took nothing is learnt, at most so long [s]
+_REST, _LONGEST = 3.0, 300.0  # times as long as it learnt it rests, at most so long [s]
 _FEWEST, _FEWEST_TRACKS = 100, 3  # bends, and tracks that they are of, which tell what is usual
 _MEDIAN = 0.6745  # of |x|, x a standard Gaussian
 BELIEVED = 1.5  # times as far as told, noise is as told: contacts turn, and few bends tell little
@@ -32,18 +33,20 @@ _MOST = 30.0
 
 @dataclass(frozen=True)
 class Followed:
-    """The last two plots of tracks, the older one first."""
+    """Plots that are surely of tracks."""
 
     id: Ints  # (N,) of the track
-    time: Floats  # (N, 2) [s], NaN: no plot yet
-    position: Floats  # (N, d, 2)
-    covariance: Floats  # (N, d, d, 2)
+    time: Floats  # (N,) [s]
+    position: Floats  # (N, d)
+    covariance: Floats  # (N, d, d)
+    sensor: Floats  # (N, 3) place of the sensor [m]
 
     @staticmethod
     def none(d: int) -> Followed:
-        """Return no tracks, of plots with d coordinates."""
-        none = np.zeros(0, np.int64)
-        return Followed(none, np.zeros((0, 2)), np.zeros((0, d, 2)), np.zeros((0, d, d, 2)))
+        """Return no plots, with d coordinates."""
+        none = np.zeros(0)
+        ids = none.astype(np.int64)
+        return Followed(ids, none, np.zeros((0, d)), np.zeros((0, d, d)), np.zeros((0, 3)))
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,25 @@ class Bends:
     track: Ints  # (K,) id
     size: Floats  # (K, d) in sds of that by the noise that the three tell; along, to the left, up
 
+    @cached_property
+    def ratio(self) -> Floats:
+        """
+        Return how large the noise is over what is told, by axis (d,); NaN where not known yet.
+
+        Along the line of sight, across to the left and, if there is height, up.
+        """
+        size = np.abs(self.size)
+        if len(size) < _FEWEST or len(np.unique(self.track)) < _FEWEST_TRACKS:
+            return np.full(size.shape[1], np.nan)
+        return np.asarray(np.median(size, axis=0) / _MEDIAN)
+
+    @cached_property
+    def raised(self) -> tuple[float, float, float]:
+        """By what told sds are to be multiplied on each axis: never less than 1."""
+        factor = np.where(self.ratio > BELIEVED, np.minimum(self.ratio, _MOST), 1.0)
+        along, left, up = [*factor.tolist(), 1.0, 1.0][:3]
+        return along, left, up
+
 
 @dataclass(frozen=True)
 class Scatter:
@@ -60,16 +82,15 @@ class Scatter:
 
     followed: Followed
     bends: Bends
-    new: int = 0  # bends since it rested
     began: float = -np.inf  # to follow tracks [s]
-    until: float = -np.inf  # it rests, since learning costs a tenth of a scan [s]
+    until: float = -np.inf  # it rests: noise seldom changes [s]
 
     @staticmethod
     def none(d: int) -> Scatter:
         """Return what is known of plots with d coordinates before any came."""
         return Scatter(Followed.none(d), Bends(np.zeros(0, np.int64), np.zeros((0, d))))
 
-    def learn(self, owner: Ints, scan: Scan, living: Tracks, space: Space) -> Scatter:
+    def learn(self, owner: Ints, scan: Scan, interval: float, space: Space) -> Scatter:
         """
         Return what is known after one more scan.
 
@@ -79,8 +100,8 @@ class Scatter:
             Id of the track that a plot is surely of, 0: of none.
         scan : Scan
             M plots.
-        living : Tracks
-            Those that are followed on.
+        interval : float
+            From one look at a track to the next [s].
         space : Space
             Where plots are.
 
@@ -88,34 +109,34 @@ class Scatter:
         end = scan.coverage.end_time
         if end < self.until:
             return self
-        told = np.isfinite(scan.position).all(axis=1)
-        ids, plot = np.unique(np.where(told, owner, 0), return_index=True)
-        ids, plot = ids[ids > 0][:_MOST_TRACKS], plot[ids > 0][:_MOST_TRACKS]
-        if len(ids) == 0:
-            return self
-        old = take(self.followed, np.isin(self.followed.id, living.id))
-        began = self.began if len(old.id) else end
-        _, before, now = np.intersect1d(old.id, ids, assume_unique=True, return_indices=True)
-        three = _with_third(take(old, before), plot[now], scan)
-        found = _bends(three, scan.sensor_position[plot[now]], np.array(scan.raised), space)
+        (plot,) = ((owner > 0) & np.isfinite(scan.position).all(axis=1)).nonzero()
+        if len(plot) > _MOST_TRACKS:
+            plot = plot[np.argsort(owner[plot])[:_MOST_TRACKS]]
+        fresh = Followed(
+            owner[plot], scan.time[plot], scan.position[plot], scan.covariance[plot],
+            scan.sensor_position[plot],
+        )  # fmt: skip
+        began = self.began if len(self.followed.id) else end
+        followed = concatenate(self.followed, fresh)
+        if end < began + _LOOKS * interval and len(followed.id) < _MOST_PLOTS:
+            return change(self, followed=followed, began=began)
+        return self._learnt(followed, scan.raised, space, end, end - began)
+
+    def _learnt(
+        self, followed: Followed, raised: tuple[float, ...], space: Space, now: float, spent: float
+    ) -> Scatter:
+        """Return what is known after some looks, all with the same sds: they change only here."""
+        found = _bends(followed, np.array(raised), space)
+        found = take(found, slice(None, None, 1 + len(found.track) // _REMEMBERED))
         bends = take(concatenate(self.bends, found), slice(-_REMEMBERED, None))
-        new = self.new + len(found.track)
-        if new >= _BURST and len(bends.track) == _REMEMBERED:
-            rest = min(_REST * (end - began), _LONGEST)
-            return Scatter(Followed.none(scan.position.shape[1]), bends, until=end + rest)
-        return Scatter(_follow_on(old, before, ids, plot, scan), bends, new, began)
+        is_sure = len(bends.track) == _REMEMBERED
+        rest = min(_REST * spent, _LONGEST) if is_sure else 0.0
+        return Scatter(Followed.none(followed.position.shape[1]), bends, until=now + rest)
 
-    @cached_property
+    @property
     def ratio(self) -> Floats:
-        """
-        Return how large the noise is over what is told, by axis (d,); NaN where not known yet.
-
-        Along the line of sight, across to the left and, if there is height, up.
-        """
-        size = np.abs(self.bends.size)
-        if len(size) < _FEWEST or len(np.unique(self.bends.track)) < _FEWEST_TRACKS:
-            return np.full(size.shape[1], np.nan)
-        return np.asarray(np.median(size, axis=0) / _MEDIAN)
+        """How large the noise is over what is told (d,), see `Bends.ratio`."""
+        return self.bends.ratio
 
     def raised(self, is_round: bool = False) -> tuple[float, float, float]:
         """
@@ -125,50 +146,26 @@ class Scatter:
         and takes noise for turns; one that is less sure is only slower. What is told of noise that
         lasts, as of long ships, three plots do not show. `is_round`: the same on all axes.
         """
-        ratio = self.ratio
-        factor = np.where(ratio > BELIEVED, np.minimum(ratio, _MOST), 1.0)
-        along, left, up = [factor.max()] * 3 if is_round else [*factor, 1.0, 1.0][:3]
-        return float(along), float(left), float(up)
+        raised = self.bends.raised
+        most = max(raised)
+        return (most, most, most) if is_round else raised
 
 
-def _with_third(known: Followed, plot: Ints, scan: Scan) -> Followed:
-    """Return three plots of tracks (N,), with these rows of the scan as the last ones."""
-    return Followed(
-        known.id,
-        np.concatenate([known.time, scan.time[plot, None]], axis=1),
-        np.concatenate([known.position, scan.position[plot, :, None]], axis=2),
-        np.concatenate([known.covariance, scan.covariance[plot, :, :, None]], axis=3),
-    )
-
-
-def _follow_on(old: Followed, before: Ints, ids: Ints, plot: Ints, scan: Scan) -> Followed:
-    """Return the last two plots, these of tracks (N,) included, whose rows were `before`."""
-    rest = np.ones(len(old.id), bool)
-    rest[before] = False
-    time, position = np.full((len(ids), 2), np.nan), np.zeros((len(ids), *old.position.shape[1:]))
-    covariance = np.zeros((len(ids), *old.covariance.shape[1:]))
-    known = np.isin(ids, old.id)
-    time[known, 0], position[known, :, 0] = old.time[before, 1], old.position[before, :, 1]
-    covariance[known, :, :, 0] = old.covariance[before, :, :, 1]
-    time[:, 1], position[:, :, 1] = scan.time[plot], scan.position[plot]
-    covariance[:, :, :, 1] = scan.covariance[plot]
-    return concatenate(take(old, rest), Followed(ids, time, position, covariance))
-
-
-def _bends(three: Followed, sensor: Floats, raised: Floats, space: Space) -> Bends:
-    """Return how far the last of three plots, in even steps, are off the lines of the others."""
-    first, second = np.diff(three.time, axis=1).T
+def _bends(plots: Followed, raised: Floats, space: Space) -> Bends:
+    """Return how far the last of three plots of a track, in even steps, are off the line."""
+    plots = take(plots, np.lexsort((plots.time, plots.id)))
+    steps = np.diff(plots.time)
+    first, second = steps[:-1], steps[1:]
     even = (first > 0.0) & (second < _EVEN * first) & (first < _EVEN * second)
-    three, stretch = take(three, even), second[even] / first[even]
-    z, R = three.position, three.covariance
-    way = space.shortest(z[:, :, 2] - z[:, :, 1])
-    off = way - stretch[:, None] * space.shortest(z[:, :, 1] - z[:, :, 0])
-    share = np.stack([stretch, -1.0 - stretch, np.ones_like(stretch)], axis=1)
-    axes = _axes(z[:, :, 1], sensor[even])
-    noise = np.einsum('kt,kdet->kde', share**2, R)
+    k = np.flatnonzero(even & (plots.id[2:] == plots.id[:-2]))
+    z, R, stretch = plots.position, plots.covariance, (second[k] / first[k])[:, None]
+    off = space.shortest(z[k + 2] - z[k + 1]) - stretch * space.shortest(z[k + 1] - z[k])
+    share = stretch[:, None] ** 2, (1.0 + stretch[:, None]) ** 2
+    noise = share[0] * R[k] + share[1] * R[k + 1] + R[k + 2]
+    axes = _axes(z[k + 1], plots.sensor[k + 2])
     variance = np.einsum('kad,kde,kae->ka', axes, noise, axes)
     size = np.einsum('kad,kd->ka', axes, off) / np.sqrt(variance)
-    return Bends(three.id, size * raised[: size.shape[1]])
+    return Bends(plots.id[k], size * raised[: size.shape[1]])
 
 
 def _axes(position: Floats, sensor: Floats) -> Floats:

@@ -115,7 +115,7 @@ class Tracker:
             held=take(scan, seen.waiting) if seen.waiting.any() else None,
             next_id=state.next_id + len(fitting),
             clutter=learn_clutter(state, scan, seen, born.used, kept, self.setup),
-            scatter=state.scatter.learn(seen.owner, scan, kept, self.setup.sensor.space),
+            scatter=state.scatter.learn(seen.owner, scan, interval, self.setup.sensor.space),
             leniency=born.leniency,
             time=max(scan.coverage.end_time, state.time),
             steps=steps,

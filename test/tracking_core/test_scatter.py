@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 from numpy.testing import assert_allclose
@@ -50,8 +49,18 @@ def learnt(times, contacts=5, looks=60, seed=1):
         covariance = np.einsum('ka,kad,kae->kde', sd**2, axes, axes)
         noise = np.einsum('ka,kad->kd', sd * times * rng.normal(size=sd.shape), axes)
         scan = scan_of(np.full(contacts, 4.0 * look), place + noise, covariance)
-        scatter = scatter.learn(ids, scan, SimpleNamespace(id=ids), POINTS)
+        scatter = scatter.learn(ids, scan, 4.0, POINTS)
     return scatter
+
+
+def bends_of(time, position, noise, space=POINTS, raised=(1.0, 1.0, 1.0)):
+    """Return how far plots of one contact, one a scan, are off the lines of the two before."""
+    scatter, seven = Scatter.none(len(position[0])), np.array([7])
+    for t, place in zip(time, position, strict=True):
+        scan = replace(scan_of(np.array([t]), place[None], noise), raised=raised)
+        scatter = scatter.learn(seven, scan, 100.0, space)
+    later = scan_of(np.array([1000.0]), place[None], noise)
+    return scatter.learn(np.zeros(1, int), replace(later, raised=raised), 1.0, space).bends.size
 
 
 def test_ratio_is_that_of_the_noise_on_each_axis():
@@ -78,56 +87,49 @@ def test_two_contacts_tell_nothing():
 def test_bend_is_the_way_from_the_line_of_the_two_plots_before():
     """In steps of 4 and 5 s: z2 - z1 - 5/4 (z1 - z0), over its sd, along and across the sight."""
     place = np.array([[1000.0, 0.0], [1010.0, 3.0], [1030.0, -4.0]]) + SENSOR[:2]
-    scatter, noise = Scatter.none(2), np.diag([9.0, 16.0])[None]
-    for time, z in zip((0.0, 4.0, 9.0), place, strict=True):
-        scan = scan_of(np.array([time]), z[None], noise)
-        scatter = scatter.learn(np.array([7]), scan, SimpleNamespace(id=np.array([7])), POINTS)
+    noise, time = np.diag([9.0, 16.0])[None], (0.0, 4.0, 9.0)
     line = (place[1] - SENSOR[:2]) / np.linalg.norm(place[1] - SENSOR[:2])
     axes = np.array([line, [-line[1], line[0]]])
     off = place[2] - place[1] - 1.25 * (place[1] - place[0])
     variance = (1.25**2 + 2.25**2 + 1.0) * np.einsum('ad,d,ad->a', axes, [9.0, 16.0], axes)
-    assert_allclose(scatter.bends.size, [axes @ off / np.sqrt(variance)])
-    raised = replace(scan, raised=(2.0, 3.0, 1.0), time=np.array([14.0]))
-    again = scatter.learn(np.array([7]), raised, SimpleNamespace(id=np.array([7])), POINTS)
-    once = scatter.learn(
-        np.array([7]), replace(raised, raised=(1.0, 1.0, 1.0)), SimpleNamespace(id=np.array([7])),
-        POINTS,
-    )  # fmt: skip
-    assert_allclose(again.bends.size[-1], once.bends.size[-1] * [2.0, 3.0])
+    assert_allclose(bends_of(time, place, noise), [axes @ off / np.sqrt(variance)])
+    raised = bends_of(time, place, noise, raised=(2.0, 3.0, 1.0))
+    assert_allclose(raised, [axes @ off / np.sqrt(variance) * [2.0, 3.0]])
 
 
-def test_a_miss_between_two_plots_makes_no_bend_and_lost_tracks_are_forgotten():
+def test_a_miss_between_two_plots_makes_no_bend():
     """A step of two looks after one of one is no even step."""
-    scatter, noise, seven = Scatter.none(2), np.eye(2)[None], SimpleNamespace(id=np.array([7]))
-    for time in (0.0, 1.0, 3.0):
-        scan = scan_of(np.array([time]), np.array([[5e3 + time, 0.0]]), noise)
-        scatter = scatter.learn(np.array([7]), scan, seven, POINTS)
+    place = np.array([[5e3, 0.0], [5001.0, 0.0], [5003.0, 0.0]])
+    assert len(bends_of((0.0, 1.0, 3.0), place, np.eye(2)[None])) == 0
+    assert len(bends_of((0.0, 1.0, 2.0), place, np.eye(2)[None])) == 1
+
+
+def test_plots_of_two_tracks_make_no_bend():
+    """Whoever comes first."""
+    scatter = Scatter.none(2)
+    for time, owner in enumerate((3, 5, 3, 5)):
+        scan = scan_of(np.array([float(time)]), np.array([[5e3, 0.0]]), np.eye(2)[None])
+        scatter = scatter.learn(np.array([owner]), scan, 0.3, POINTS)
+    assert scatter.until == 3.0
     assert len(scatter.bends.track) == 0
-    assert scatter.followed.id.tolist() == [7]
-    scatter = scatter.learn(np.array([8]), scan, SimpleNamespace(id=np.array([8])), POINTS)
-    assert scatter.followed.id.tolist() == [8]
 
 
 def test_bearings_go_on_over_the_cut():
     """From just below pi to just above -pi is a short way."""
-    scatter, noise = Scatter.none(1), np.array([[[1e-4]]])
-    one = SimpleNamespace(id=np.array([1]))
-    for time, bearing in enumerate((3.12, 3.14, -3.1231853)):
-        scan = scan_of(np.array([float(time)]), np.array([[bearing]]), noise)
-        scatter = scatter.learn(np.array([1]), scan, one, ANGLES)
-    assert_allclose(scatter.bends.size, 0.0, atol=1e-4)
+    bearing = np.array([[3.12], [3.14], [-3.1231853]])
+    size = bends_of((0.0, 1.0, 2.0), bearing, np.array([[[1e-4]]]), ANGLES)
+    assert_allclose(size, [[0.0]], atol=1e-4)
 
 
 def test_it_rests_once_it_knows_enough_and_goes_on_to_learn():
-    """Four looks in five cost nothing; what it knows of the noise stays meanwhile."""
+    """Three looks in four cost nothing; what it knows of the noise stays meanwhile."""
     scatter = learnt(np.ones(3), looks=80)
     assert scatter.until > -np.inf
-    assert (
-        scatter.learn(np.ones(1), scan_of(*nowhere(scatter.until - 1.0)), None, POINTS) is scatter
-    )
-    one = SimpleNamespace(id=np.array([1]))
-    later = scatter.learn(np.ones(1, int), scan_of(*nowhere(scatter.until + 1.0)), one, POINTS)
+    one = np.ones(1, int)
+    assert scatter.learn(one, scan_of(*nowhere(scatter.until - 1.0)), 4.0, POINTS) is scatter
+    later = scatter.learn(one, scan_of(*nowhere(scatter.until + 1.0)), 4.0, POINTS)
     assert later.followed.id.tolist() == [1]
+    assert later.bends is scatter.bends
 
 
 def nowhere(time):
