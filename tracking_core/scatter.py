@@ -19,9 +19,10 @@ from tracking_core.batches import Floats, Ints, Scan
 from tracking_core.rows import change, concatenate, take
 from tracking_core.space import Space
 
-_LOOKS = 10  # are learnt from at a time
+_LOOKS = 5  # are learnt from at a time
+_BEFORE = 4.5  # looks before these, from which their lines may begin
 _EVEN = 1.5  # times as long as the other one, a step may be
-_MOST_TRACKS = 30  # are followed a message, the oldest ones
+_MOST_TRACKS = 100  # are followed a message, the oldest ones
 _MOST_PLOTS = 3000  # of them all
 _REMEMBERED = 300  # bends
 _REST, _LONGEST = 3.0, 300.0  # times as long as it learnt it rests, at most so long [s]
@@ -55,6 +56,11 @@ class Bends:
 
     track: Ints  # (K,) id
     size: Floats  # (K, d) in sds of that by the noise that the three tell; along, to the left, up
+
+    def and_then(self, found: Bends) -> Bends:
+        """Return both, of many only the last ones, and of these only some."""
+        some = take(found, slice(None, None, 1 + len(found.track) // _REMEMBERED))
+        return take(concatenate(self, some), slice(-_REMEMBERED, None))
 
     @cached_property
     def ratio(self) -> Floats:
@@ -120,18 +126,13 @@ class Scatter:
         followed = concatenate(self.followed, fresh)
         if end < began + _LOOKS * interval and len(followed.id) < _MOST_PLOTS:
             return change(self, followed=followed, began=began)
-        return self._learnt(followed, scan.raised, space, end, end - began)
-
-    def _learnt(
-        self, followed: Followed, raised: tuple[float, ...], space: Space, now: float, spent: float
-    ) -> Scatter:
-        """Return what is known after some looks, all with the same sds: they change only here."""
-        found = _bends(followed, np.array(raised), space)
-        found = take(found, slice(None, None, 1 + len(found.track) // _REMEMBERED))
-        bends = take(concatenate(self.bends, found), slice(-_REMEMBERED, None))
-        is_sure = len(bends.track) == _REMEMBERED
-        rest = min(_REST * spent, _LONGEST) if is_sure else 0.0
-        return Scatter(Followed.none(followed.position.shape[1]), bends, until=now + rest)
+        bends = self.bends.and_then(_bends(followed, began, np.array(scan.raised), space))
+        nobody = Followed.none(scan.position.shape[1])
+        if bends.raised != self.bends.raised:  # what is told of the plots so far is another noise
+            return Scatter(nobody, bends)
+        if len(bends.track) == _REMEMBERED:
+            return Scatter(nobody, bends, until=end + min(_REST * (end - began), _LONGEST))
+        return Scatter(take(followed, followed.time > end - _BEFORE * interval), bends, end)
 
     @property
     def ratio(self) -> Floats:
@@ -151,13 +152,13 @@ class Scatter:
         return (most, most, most) if is_round else raised
 
 
-def _bends(plots: Followed, raised: Floats, space: Space) -> Bends:
-    """Return how far the last of three plots of a track, in even steps, are off the line."""
+def _bends(plots: Followed, since: float, raised: Floats, space: Space) -> Bends:
+    """Return how far plots since then [s], in even steps with two others, are off their line."""
     plots = take(plots, np.lexsort((plots.time, plots.id)))
     steps = np.diff(plots.time)
     first, second = steps[:-1], steps[1:]
     even = (first > 0.0) & (second < _EVEN * first) & (first < _EVEN * second)
-    k = np.flatnonzero(even & (plots.id[2:] == plots.id[:-2]))
+    k = np.flatnonzero(even & (plots.id[2:] == plots.id[:-2]) & (plots.time[2:] > since))
     z, R, stretch = plots.position, plots.covariance, (second[k] / first[k])[:, None]
     off = space.shortest(z[k + 2] - z[k + 1]) - stretch * space.shortest(z[k + 1] - z[k])
     share = stretch[:, None] ** 2, (1.0 + stretch[:, None]) ** 2

@@ -53,6 +53,13 @@ def learnt(times, contacts=5, looks=60, seed=1):
     return scatter
 
 
+def test_every_plot_is_off_the_line_of_two_others_once():
+    """Five looks are learnt from at a time, with those before."""
+    scatter = learnt(np.ones(3), contacts=1, looks=31)
+    assert scatter.followed.id.tolist() == 5 * [1]
+    assert len(scatter.bends.track) == 31 - 2
+
+
 def bends_of(time, position, noise, space=POINTS, raised=(1.0, 1.0, 1.0)):
     """Return how far plots of one contact, one a scan, are off the lines of the two before."""
     scatter, seven = Scatter.none(len(position[0])), np.array([7])
@@ -110,7 +117,7 @@ def test_plots_of_two_tracks_make_no_bend():
     for time, owner in enumerate((3, 5, 3, 5)):
         scan = scan_of(np.array([float(time)]), np.array([[5e3, 0.0]]), np.eye(2)[None])
         scatter = scatter.learn(np.array([owner]), scan, 0.3, POINTS)
-    assert scatter.until == 3.0
+    assert scatter.began > 0.0  # it has learnt meanwhile
     assert len(scatter.bends.track) == 0
 
 
