@@ -32,6 +32,7 @@ class Radar:
     dimensions: int  # 2 or 3
     is_polar: bool
     doubt: PlatformDoubt | None = None  # of the platform, in the message at hand
+    raised: tuple[float, float, float] = (1.0, 1.0, 1.0)  # sds of range, azimuth, ... over told
 
     @staticmethod
     def for_plots(config: SensorConfig, plots: Plots) -> Radar:
@@ -77,8 +78,10 @@ class Radar:
         """Return what the radar itself does not know (T, d, d) at offsets (T, d) from it [m^2]."""
         d, c = self.dimensions, self.config
         if not self.is_polar:
-            return np.broadcast_to(c.position_sd**2 * np.eye(d), (len(offset), d, d))
-        sd = np.broadcast_to([c.range_sd, c.azimuth_sd, c.elevation_sd][:d], offset.shape)
+            R = (self.raised[0] * c.position_sd) ** 2 * np.eye(d)
+            return np.broadcast_to(R, (len(offset), d, d))
+        usual = np.array(self.raised) * [c.range_sd, c.azimuth_sd, c.elevation_sd]
+        sd = np.broadcast_to(usual[:d], offset.shape)
         return to_cartesian(to_polar(offset), sd)[1]
 
     def clutter_volume(self, position: Floats, coverage: Coverage) -> Floats:
@@ -157,6 +160,7 @@ class Radar:
             volume=volume,
             range_rate_interval=self.config.range_rate_interval,
             excess=excess(covariance, self.noise(position, coverage)) if told else NOTHING,
+            raised=self.raised,
             is_slant=self.is_polar and d == 3,
         )
 
@@ -165,11 +169,13 @@ class Radar:
         c, M, d = self.config, len(plots), self.dimensions
         if not self.is_polar:
             told, usual = plots.position_covariance, c.position_sd**2 * np.eye(3)
-            return _or_like(plots.position, np.zeros(3)), _or_like(told, usual)
+            covariance = self.raised[0] ** 2 * _or_like(told, usual)
+            return _or_like(plots.position, np.zeros(3)), covariance
         polar = np.stack([plots.range, plots.azimuth, np.nan_to_num(plots.elevation)], axis=1)
         sd = np.empty((M, 3))
         sd[:, 0], sd[:, 1] = _or(plots.range_sd, c.range_sd), _or(plots.azimuth_sd, c.azimuth_sd)
         sd[:, 2] = _or(plots.elevation_sd, c.elevation_sd)
+        sd *= self.raised
         position, covariance = np.zeros((M, 3), order='F'), np.zeros((M, 3, 3), order='F')
         covariance[:, 2, 2] = 1.0
         position[:, :d], covariance[:, :d, :d] = to_cartesian(polar[:, :d], sd[:, :d])

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import replace
 from typing import Any
 
@@ -19,14 +19,17 @@ from msg_adapters.reading import Reading
 from msg_adapters.tracks import from_tracks, kinematics, to_bodies
 from msg_adapters.trails import Trails
 from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.doubts import doubts
 from radar_tracker.memory import recall, remember
 from radar_tracker.mounting import in_sensor_axes
 from radar_tracker.sensor_config import MountConfig
+from radar_tracker.told import tell_noise
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Floats, Plots, Tracks
 from tracking_core.platform import Platform, pose_at
 from tracking_core.rows import take
 from tracking_session.axes import check_axes, check_places, Warn
+from tracking_session.doubts import Doubt
 from tracking_session.frames import TrackingFrame
 from tracking_session.ledger import Log
 from tracking_session.node_config import NodeConfig
@@ -63,6 +66,7 @@ class RadarInstrument:
         self.tracker = RadarTracker(config)
         self._overrides, self._types = vars(node_config.fields), types
         self._trails = Trails.empty(node_config.markers.history)
+        self._plots, self._tells_noise = 0, False  # how many came; whether they tell their own
 
     @property
     def is_mounted(self) -> bool:
@@ -107,11 +111,18 @@ class RadarInstrument:
                 return plots
             return in_sensor_axes(plots, pose_at(platform, plots.time), sensor.mount)
 
+        self._plots += len(plots)
+        if len(plots):
+            self._tells_noise = tell_noise(plots, self.tracker.radar.is_polar)
         local, sectors = relative(plots), self.tracker.sectors
         times = sectors.times(local)
         if times is not local.time:
             local = relative(replace(plots, time=times))
         return self.tracker.track(local, platform, sectors.beam)
+
+    def doubts(self) -> Iterator[Doubt]:
+        """Yield what the plots say against the parameters."""
+        return doubts(self.tracker, self._plots, self._tells_noise)
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table."""

@@ -172,9 +172,8 @@ class RadarTracker:
         if len(plots):
             seen = Radar.for_plots(self.config.sensor, plots)
             self.flat = flat_after(self.flat, self.radar, seen, len(plots))
-            if not self.is_known or (
-                is_other(self.radar, seen, self.flat) and not self.tracks.confirmed.any()
-            ):
+            other = is_other(self.radar, seen, self.flat) and not self.tracks.confirmed.any()
+            if other or not self.is_known:
                 self._become(seen)
             self._see(farthest(plots, self.radar.is_polar, self.radar.dimensions))
 
@@ -193,7 +192,8 @@ class RadarTracker:
         self.farthest = max(self.farthest, distance)
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:
-        """Open the gates for what own ship does not know of itself."""
-        if doubt is not self.radar.doubt:
-            self.radar = replace(self.radar, doubt=doubt)
+        """Open the gates for what own ship does not know of itself, and plots do not tell."""
+        raised = self.state.scatter.raised(is_round=not self.radar.is_polar)
+        if doubt is not self.radar.doubt or raised != self.radar.raised:
+            self.radar = replace(self.radar, doubt=doubt, raised=raised)
             self.core.setup = self.core.setup.with_sensor(self.radar)

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import replace
 from typing import Any
 
@@ -24,10 +24,13 @@ from tracking_core.batches import Bearings, Floats, Tracks
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
 from tracking_session.axes import check_axes, Warn
+from tracking_session.doubts import Doubt, noise_doubts, Told
 from tracking_session.frames import TrackingFrame
 from tracking_session.ledger import Log
 from tracking_session.node_config import NodeConfig
 from tracking_session.session import Session
+
+_ADVICE = 'set it right, or tell with own ship how sure the heading is'
 
 
 def sonar_session(
@@ -59,6 +62,7 @@ class SonarInstrument:
     ) -> None:
         self.tracker = SonarTracker(config)
         self._overrides, self._types = vars(node_config.fields), types
+        self._tells_noise = False
 
     @property
     def is_mounted(self) -> bool:
@@ -86,10 +90,19 @@ class SonarInstrument:
     def track(self, plots: Bearings, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the marks of one cycle."""
         sensor = self.tracker.config.sensor
+        if len(plots):
+            self._tells_noise = bool(np.isfinite(plots.bearing_sd).any())
         if frame.tells_true(sensor.azimuth_reference):
             heading = pose_at(platform, plots.time).yaw + sensor.mount.yaw
             plots = replace(plots, bearing=wrap_angle(plots.bearing - heading))
         return self.tracker.track(plots, platform)
+
+    def doubts(self) -> Iterator[Doubt]:
+        """Yield what the marks say against the parameters."""
+        told = Told('bearing', 'sensor.bearing_sd', self.tracker.config.sensor.bearing_sd, 'rad')
+        if self._tells_noise:
+            told = told._replace(name='bearing_sd', sd=None)
+        return noise_doubts('marks', [told], self.tracker.state.scatter.ratio, _ADVICE)
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table."""

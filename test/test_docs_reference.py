@@ -138,6 +138,16 @@ def own_ship(stamp, frame='map', x=0.0):
     return msg
 
 
+def plots_of_eight(farthest, times):
+    """Return looks at eight contacts at rest, azimuth noise so many times as large as told."""
+    rng, azimuth = np.random.default_rng(2), np.linspace(-3.0, 3.0, 8)
+    distance, sd = np.linspace(0.2, 1.0, 8) * farthest, 0.00175 * times
+    return [
+        message(100.0 + 4.0 * k, range=distance, azimuth=azimuth + sd * rng.normal(size=8))
+        for k in range(40)
+    ]
+
+
 def lines_of_sessions():
     """Make every mistake of the page once; return what was said."""
     said = []
@@ -170,6 +180,8 @@ def lines_of_sessions():
         from_columns({'x': np.ones(1), 'y': np.ones(1)}, 100.0 + k, 'odom', TYPES) for k in (0, 4)
     ]
     use(*places, tracker={'sensor.mount.x': 3.0}, odometry=[own_ship(99.0, 'odom')])
+    use(*plots_of_eight(50.0, 1.0))
+    use(*plots_of_eight(3e4, 4.0))
     leap = [own_ship(90.0), own_ship(90.5), *(own_ship(91.0 + step, x=1e3) for step in range(3))]
     use(odometry=leap)
     return said

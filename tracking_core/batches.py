@@ -147,6 +147,7 @@ class Scan:
     volume: float  # plot space of the whole coverage, what the clutter density is per
     excess: tuple[float, float, float] = (0.0, 0.0, 0.0)  # by axis, of variances over the usual
     range_rate_interval: float = 0.0  # after which range rates come again [m/s], 0: they do not
+    raised: tuple[float, float, float] = (1.0, 1.0, 1.0)  # sds over those told, by axis of sight
     is_slant: bool = False  # plots without height stand at their slant range
 
     def __len__(self) -> int:

@@ -10,6 +10,7 @@ import numpy as np
 
 from tracking_core.batches import Floats, Ints, Scan, Seeds, Tracks
 from tracking_core.clutter import Clutter
+from tracking_core.scatter import Scatter
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class State:
     tracks: Tracks
     seeds: Seeds
     clutter: Clutter
+    scatter: Scatter
     held: Scan | None = None  # plots whose antenna pass was not over
     next_id: int = 1
     leniency: float = 1.0  # tentative tracks may be so much less likely than usual

@@ -26,6 +26,7 @@ from tracking_core.learning import learn_clutter
 from tracking_core.linalg import TURN
 from tracking_core.merging import end_doubles
 from tracking_core.rows import concatenate, take
+from tracking_core.scatter import Scatter
 from tracking_core.state import State, StepReport
 from tracking_core.update import Look, look
 
@@ -54,6 +55,7 @@ class Tracker:
             new_tracks(nothing, seeds.time, self.setup, first, Coverage(0.0, 0.0)),
             seeds,
             Clutter(ClutterMap.blank(self.setup.sensor.space)),
+            Scatter.none(d),
             next_id=first,
         )
 
@@ -113,6 +115,7 @@ class Tracker:
             held=take(scan, seen.waiting) if seen.waiting.any() else None,
             next_id=state.next_id + len(fitting),
             clutter=learn_clutter(state, scan, seen, born.used, kept, self.setup),
+            scatter=state.scatter.learn(seen.owner, scan, interval, self.setup.sensor.space),
             leniency=born.leniency,
             time=max(scan.coverage.end_time, state.time),
             steps=steps,

@@ -25,6 +25,8 @@ from tracking_core.unresolved.common_pairs import add_common
 
 _LOST = 10.0  # strange plots expected in the gate of a track that is no track any more
 
+_SURE = 0.8  # chance of a pair, beside all others of its track and of its plot
+
 _LEVEL_GAIN = 0.05  # of the usual snr: contacts flutter from look to look
 
 
@@ -36,6 +38,7 @@ class Look:
     ended: Ints  # ids of the others
     broken: int  # tracks deleted because a covariance was not positive definite
     claimed: Floats  # (M,) chance that a known contact made the plot
+    owner: Ints  # (M,) id of the confirmed track that the plot is surely of, 0: of none
     waiting: Bools  # (M,) in the gate of a track that the antenna has not passed yet
     passed: Bools  # of the tracks that live on: which were worked on
     pairs: int
@@ -50,6 +53,7 @@ class Look:
             ended=np.concatenate([self.ended, second.ended]),
             broken=self.broken + second.broken,
             claimed=claimed,
+            owner=np.maximum(self.owner, second.owner),
             waiting=second.waiting & (claimed < MORE_LIKELY_THAN_NOT),
             passed=second.passed | np.isin(second.tracks.id, self.tracks.id[self.passed]),
             pairs=self.pairs + second.pairs,
@@ -105,12 +109,22 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
         ended=tracks.id[~kept],
         broken=int((due & broken).sum()),
         claimed=claimed,
+        owner=_owners(predicted.tracks, gated, share, scan),
         waiting=(waiting | early) & (claimed < MORE_LIKELY_THAN_NOT),
         passed=worked_on[kept],
         pairs=len(gated.pairs),
         approximate=int(share.approximate.sum()),
         again=again,
     )
+
+
+def _owners(tracks: Tracks, gated: Gated, share: Share, scan: Scan) -> Ints:
+    """Return the id of the confirmed track (M,) that each plot is surely of alone, 0: of none."""
+    track, plot = gated.pairs.track, gated.pairs.plot
+    sure = (share.claim > _SURE) & (gated.common < 0) & tracks.confirmed[track]
+    owner = np.zeros(len(scan), np.int64)
+    owner[plot[sure]] = tracks.id[track[sure]]
+    return owner
 
 
 def _merge(tracks: Tracks, row: Ints, updated: Tracks, kept: Bools, worked_on: Bools) -> Tracks:

@@ -11,6 +11,7 @@ from itertools import chain
 import math
 import time
 
+from tracking_core.batches import Floats
 from tracking_session.session import Session
 
 NEAR_CAPACITY = 0.9  # of max_tracks
@@ -78,6 +79,7 @@ class Health:
         if crowded:
             yield f'several publishers on {" and ".join(crowded)}'
         yield from sorted(new)
+        yield from (doubt.what for doubt in session.instrument.doubts())
 
     def told(self, session: Session) -> None:
         """Take note that complaints up to now have been reported."""
@@ -99,6 +101,7 @@ class Health:
             f'{topic} held': report.held,
             'clutter density': report.clutter_density,
             'clutter density, densest': report.densest_clutter,
+            **_scatter(session.instrument.tracker.state.scatter.ratio),
             'step time [s]': self.step_time,
             'step CPU [s]': self.step_cpu,
             'latency [s]': self.latency,
@@ -112,6 +115,12 @@ class Health:
                 for name, value in count.values(topic).items()
             },
         }
+
+
+def _scatter(ratio: Floats) -> dict[str, float]:
+    """Return the noise of plots over what is told (d,), by axis."""
+    axes = ('bearing',) if len(ratio) == 1 else ('range', 'azimuth', 'elevation')
+    return {f'scatter in {axis}': times for axis, times in zip(axes, ratio.tolist(), strict=False)}
 
 
 def _complaints(session: Session) -> Counter[str]:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Iterator, Mapping, Set
 from typing import Any, Protocol
 
 from msg_adapters.bodies import Bodies
@@ -15,6 +15,7 @@ from tracking_core.platform import Platform
 from tracking_core.space import Space
 from tracking_core.state import State
 from tracking_session.axes import Warn
+from tracking_session.doubts import Doubt
 from tracking_session.frames import TrackingFrame
 
 
@@ -109,6 +110,9 @@ class Instrument(Protocol):
 
     def track(self, plots: Any, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the plots of one message."""
+
+    def doubts(self) -> Iterator[Doubt]:
+        """Yield what the plots say against the parameters."""
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table; `previous` are the tracks of the last one."""

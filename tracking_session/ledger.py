@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol
 
+from tracking_session.doubts import Doubt
 from tracking_session.input_count import InputCount
 from tracking_session.throttle import Throttle
 
@@ -38,7 +39,8 @@ class Ledger:
     def __init__(self, topics: str, say: Callable[[str], object]) -> None:
         self.counts = {topic: InputCount() for topic in topics.split()}
         self.failures: Counter[str] = Counter()  # of what is no input, by what failed
-        self.warn = Throttle(say)
+        self.warn, self._say = Throttle(say), say
+        self._doubted: set[str] = set()
 
     def refuse(self, topic: str, reason: str, error: object) -> None:
         """Count a message that cannot be used; `reason` has no values in it."""
@@ -49,6 +51,13 @@ class Ledger:
         """Count and tell what could not be done; `what` has no values in it."""
         self.failures[what] += 1
         self.warn(what, f'{what}: {error}')
+
+    def doubt(self, doubts: Iterable[Doubt]) -> None:
+        """Tell each doubt once."""
+        for what, text in doubts:
+            if what not in self._doubted:
+                self._doubted.add(what)
+                self._say(text)
 
     def shed(self, topic: str) -> None:
         """Count a message that is passed over for a newer one."""

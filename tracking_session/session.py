@@ -131,6 +131,7 @@ class Session:
             self._start_anew(f'time moved to {plots.stamp:.3f} (a recording that began anew?)')
         tracks = self._history.step(plots, platform, self.frame)
         self._tell_silent()
+        self.ledger.doubt(self.instrument.doubts())
         self._use(reading)
         self.stamp = msg.header.stamp
         last, self.published = self.published, tracks
@@ -193,7 +194,6 @@ class Session:
 
     def drop_track(self, track_id: int) -> bool:
         """Delete one track, which late plots do not undo; return whether it was there."""
-        was_there = self.instrument.tracker.drop_track(track_id)
-        if was_there:
+        if was_there := self.instrument.tracker.drop_track(track_id):
             self._history.close()
         return was_there

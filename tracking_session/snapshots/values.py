@@ -26,18 +26,22 @@ from tracking_core.batches import (
 )  # fmt: skip
 from tracking_core.clutter import Clutter
 from tracking_core.clutter_map import ClutterMap
+from tracking_core.scatter import Bends, Followed, Scatter
 from tracking_core.state import State, StepReport
 
 CLASSES = {
     kind.__name__: kind
     for kind in (
         Bearings,
+        Bends,
         Clutter,
         ClutterMap,
         Coverage,
+        Followed,
         Mixture,
         Plots,
         Scan,
+        Scatter,
         Seeds,
         State,
         StepReport,

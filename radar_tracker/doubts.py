@@ -1,0 +1,50 @@
+# Copyright 2026 the contact_tracking authors
+# SPDX-License-Identifier: Apache-2.0
+"""Are the radar's plots what its parameters tell?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from radar_tracker.tracker import RadarTracker
+from tracking_session.doubts import Doubt, noise_doubts, Told
+
+_ENOUGH = 200  # plots, of which the farthest tells how far the radar sees
+_COARSE = 0.05  # of that distance; there is no radar whose range noise is so large
+_ADVICE = 'that is used; set it right, unless most contacts turn all the time'
+
+
+def doubts(tracker: RadarTracker, plots: int, is_own: bool) -> Iterator[Doubt]:
+    """
+    Yield what looks wrong.
+
+    Parameters
+    ----------
+    tracker : RadarTracker
+        With its parameters.
+    plots : int
+        How many came so far.
+    is_own : bool
+        Whether plots tell their own noise.
+
+    """
+    c, is_polar = tracker.config.sensor, tracker.radar.is_polar
+    told = [
+        Told('range', 'sensor.range_sd', c.range_sd, 'm'),
+        Told('azimuth', 'sensor.azimuth_sd', c.azimuth_sd, 'rad'),
+        Told('elevation', 'sensor.elevation_sd', c.elevation_sd, 'rad'),
+    ]
+    if not is_polar:
+        axes = ('range', 'azimuth', 'elevation')
+        told = [Told(axis, 'sensor.position_sd', c.position_sd, 'm') for axis in axes]
+    if is_own:
+        told = [t._replace(name=t.name.replace('sensor.', ''), sd=None) for t in told]
+    yield from noise_doubts('plots', told, tracker.state.scatter.ratio, _ADVICE)
+    name, sd = told[0].name, told[0].sd
+    if sd is not None and plots >= _ENOUGH and sd > _COARSE * tracker.farthest:
+        yield Doubt(
+            f'{name} is too large',
+            f'{name} = {sd:.3g} m is that of a radar which sees far, but the farthest of {plots} '
+            f'plots is {tracker.farthest:.0f} m away: contacts can hardly be told from false '
+            'plots. Begin with a preset for short ranges',
+        )
