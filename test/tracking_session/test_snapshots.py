@@ -15,7 +15,7 @@ from tracking_node.health import Health
 from tracking_session.node_config import SnapshotConfig
 from tracking_session.snapshots import file as snapshot_file
 from tracking_session.snapshots import values
-from tracking_session.snapshots.file import BadSnapshot, read_snapshot, write_snapshot
+from tracking_session.snapshots.file import BadSnapshot, free_ids, read_snapshot, write_snapshot
 from tracking_session.snapshots.keeper import Keeper, RESERVED
 from tracking_tools.parameter_file import configure
 
@@ -209,6 +209,13 @@ def test_contents_of_another_form_are_refused(kept, sensor, path):
         other = Station(sensor, path, kept.now)
         assert 'it has contents that do not fit' in other.lines[-1]
         other.scan(0)
+
+
+@pytest.mark.parametrize(('told', 'free'), [(1001, 1001), (2**32 - 1, 2**32 - 1), (2**32, 0)])
+def test_free_ids_are_those_that_a_table_can_tell(path, told, free):
+    """Of ten digits, too; a number beyond is nobody's."""
+    write_snapshot(path, {}, told)
+    assert free_ids(path) == free
 
 
 def test_write_leaves_the_old_file_when_it_fails(path, monkeypatch):

@@ -28,7 +28,8 @@ MAGIC = b'contact_tracking snapshot '
 LARGEST = 1_000_000_000  # bytes of a file; 200,000 tracks are less
 _LENGTH = 8  # bytes that hold the length of the JSON text
 _FIRST_LINE = 80  # bytes of it, at most
-_HEAD = re.compile(MAGIC + rb'\d+ (\d{1,9})\n')
+_HEAD = re.compile(MAGIC + rb'\d+ (\d{1,10})\n')
+_IDS = 2**32  # that a track table can tell
 
 
 class BadSnapshot(ValueError):  # noqa: N818 (it is the snapshot that is bad)
@@ -66,7 +67,8 @@ def free_ids(path: Path) -> int:
     with path.open('rb') as file:
         head = file.readline(_FIRST_LINE)
     told = _HEAD.match(head)
-    return int(told[1]) if told else 0
+    ids = int(told[1]) if told else 0
+    return ids if ids < _IDS else 0
 
 
 def read_snapshot(path: Path) -> dict[str, Any]:
