@@ -118,10 +118,15 @@ def play(case: Case, scenes: int, looks: int, seed: int, quiet: bool = True) -> 
 
 def is_real(tracks: Tracks, truth: Floats) -> Bools:
     """Return which tracks (T,) have a contact within 5 sigma of their position and velocity."""
+    return np.asarray((distances(tracks, truth) < 25.0).any(axis=1))
+
+
+def distances(tracks: Tracks, truth: Floats) -> Floats:
+    """Return how far tracks are from contacts (N, 4), squared and normalised (T, N)."""
     mean, covariance = tracks.planes[0].moments()
-    delta = mean[:, None] - truth  # (T, contacts, 4)
+    delta = mean[:, None] - truth
     scaled = np.linalg.solve(covariance[:, None], delta[..., None])[..., 0]
-    return np.asarray(((delta * scaled).sum(axis=2) < 25.0).any(axis=1))
+    return np.asarray((delta * scaled).sum(axis=2))
 
 
 def _next_truth(truth: Floats, case: Case, rng: np.random.Generator) -> Floats:

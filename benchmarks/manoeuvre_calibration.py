@@ -18,7 +18,7 @@ from itertools import pairwise
 import numpy as np
 from tqdm import tqdm
 
-from benchmarks.existence_calibration import CONFIG, FARTHEST, look, PERIOD, VOLUME
+from benchmarks.existence_calibration import CONFIG, distances, FARTHEST, look, PERIOD, VOLUME
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.planes import build_planes
 from radar_tracker.tracker import RadarTracker
@@ -131,10 +131,7 @@ def _moved(
 
 def _pairs(tracks: Tracks, truth: Floats) -> tuple[Ints, Ints]:
     """Return the confirmed tracks that follow a contact, and the contact of each."""
-    mean, covariance = tracks.planes[0].moments()
-    delta = mean[:, None] - truth  # (T, contacts, 4)
-    scaled = np.linalg.solve(covariance[:, None], delta[..., None])[..., 0]
-    distance = (delta * scaled).sum(axis=2)
+    distance = distances(tracks, truth)
     of = np.flatnonzero(tracks.confirmed & (distance.min(axis=1, initial=np.inf) < NEAR))
     return of, distance[of].argmin(axis=1)
 
