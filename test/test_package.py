@@ -187,6 +187,14 @@ def test_share_files_are_installed(setup_arguments: dict[str, Any]) -> None:
     assert {path.parts[0] for path in shared} == SHARED
 
 
+def test_source_archive_holds_every_folder() -> None:
+    """What README has one run is in it: the tests read benchmarks and studies."""
+    lines = [line.split() for line in (ROOT / 'MANIFEST.in').read_text().splitlines()]
+    named = {line[1] for line in lines if line[0] == 'recursive-include'}
+    folders = {path.parts[0] for path in _sources() if len(path.parts) > 1}
+    assert folders <= named | set(PACKAGES)
+
+
 def _files(top: str) -> list[Path]:
     found = (ROOT / top).rglob('*')
     return [path for path in found if path.is_file() and '__pycache__' not in path.parts]

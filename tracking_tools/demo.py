@@ -23,6 +23,7 @@ from tracking_tools.demo_player import play
 from tracking_tools.demo_report import report
 from tracking_tools.node_process import NodeFailed
 from tracking_tools.picture import draw
+from tracking_tools.presets import parameter_file
 from tracking_tools.replay import RADAR, read_configs, replay
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report import load_page
@@ -119,7 +120,7 @@ def _parser(demo: Demo) -> argparse.ArgumentParser:
     )
     add('--no-live', dest='live', action='store_false', help='replay instead, without a node')
     add('--recording', type=Path, default=demo.recording, metavar='BAG', help='another scene')
-    add('--params', type=Path, default=demo.parameters, metavar='FILE', help='parameters for it')
+    add('--params', type=parameter_file, default=demo.parameters, metavar='FILE', help='for it')
     return parser
 
 

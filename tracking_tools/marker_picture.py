@@ -27,6 +27,7 @@ from tracking_tools.marker_shapes import draw_markers, places
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.picture import save
 from tracking_tools.picture_style import BACK, dress
+from tracking_tools.presets import parameter_file
 from tracking_tools.replay_topics import check_topics, messages_of, Topics
 from tracking_tools.screen import Screen
 from tracking_tools.sensors import SensorKind, SENSORS
@@ -184,7 +185,7 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add('recording', type=Path, metavar='BAG', help='with plots or bearings')
     add('--sensor', choices=sorted(SENSORS), default='radar', help='default: radar')
-    add('--params', type=Path, required=True, metavar='FILE', help='parameters of the node')
+    add('--params', type=parameter_file, required=True, metavar='FILE', help='of the node')
     add('--until', type=positive, default=np.inf, metavar='SECONDS', help='of the recording')
     add('--window', type=float, nargs=3, metavar=('X', 'Y', 'WIDTH'), help='of a closer look [m]')
     add('--output', type=file_to_write, required=True, metavar='PNG', help='picture to write')

@@ -27,6 +27,7 @@ from tracking_session.session import Session
 from tracking_tools.arguments import file_to_write
 from tracking_tools.bags import BadBag, BagWriter, open_bag, POINT_CLOUD, UNREADABLE
 from tracking_tools.parameter_file import configure, parse_value, read_parameter_file
+from tracking_tools.presets import parameter_file, PARAMETER_HELP
 from tracking_tools.replay_topics import check_named, check_topics, messages_of, Topics
 from tracking_tools.report import load_page
 from tracking_tools.sensors import SensorKind, SENSORS
@@ -180,18 +181,13 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add('recording', type=Path, metavar='IN_BAG', help='rosbag2 directory, mcap or sqlite3')
     add('--sensor', choices=SENSORS, required=True, help='what the plots are from')
-    add('--params', type=Path, metavar='FILE', help='parameter file in ROS form (YAML)')
+    add('--params', type=parameter_file, metavar='FILE', help=PARAMETER_HELP)
     add('--set', action='append', default=[], metavar='NAME=VALUE', help='one parameter')
     add('--remap', action='append', default=[], metavar='FROM:=TO', help='as plots:=/radar/plots')
     add('--output', type=Path, required=True, metavar='OUT_BAG', help='rosbag2 directory to make')
     add('--quiet', action='store_true', help='no progress, no remarks, no summary')
     add('--picture', type=file_to_write, metavar='PNG', help='draw what came out')
-    add(
-        '--report',
-        type=file_to_write,
-        metavar='HTML',
-        help='write a page that shows what came out',
-    )
+    add('--report', type=file_to_write, metavar='HTML', help='write a page that shows it')
     return parser
 
 

@@ -130,7 +130,7 @@ def test_main_overwrites_nothing(cut_bag, tmp_path, capsys):
         (['--set', 'gate.probability=2'], 'must be in'),
         (['--set', 'gate.probability'], 'takes name=value'),
         (['--remap', 'plots'], 'takes FROM:=TO'),
-        (['--params', 'nowhere.yaml'], 'cannot be read'),
+        (['--params', 'marine_rader'], 'did you mean marine_radar'),
         (['--sensor', 'lidar'], 'invalid choice'),
     ],
 )

@@ -14,6 +14,7 @@ from rosbags.highlevel import AnyReaderError
 from tracking_tools.arguments import file_to_write
 from tracking_tools.evaluation.options import add_yardstick, yardstick_of
 from tracking_tools.evaluation.reading import find_sensor
+from tracking_tools.presets import parameter_file
 from tracking_tools.replay import read_configs
 from tracking_tools.report import load_page
 from tracking_tools.report.material import gather, Sources
@@ -48,7 +49,7 @@ def _parser() -> argparse.ArgumentParser:
     add('--plots', type=Path, metavar='BAG', help='with the plots or bearings')
     add('--truth', type=Path, metavar='BAG', help='with the truth')
     add('--output', type=file_to_write, required=True, metavar='HTML', help='page to write')
-    add('--params', type=Path, metavar='FILE', help='parameters that the tracks were made with')
+    add('--params', type=parameter_file, metavar='FILE', help='what the tracks were made with')
     add('--sensor', choices=SENSORS, help='whose tracks; default: what the bag has')
     add('--remap', action='append', default=[], metavar='FROM:=TO', help='as plots:=/radar/plots')
     add('--title', default='', help='of the page; default: the name of the tracks bag')

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from tracking_tools.arguments import count, file_to_write, positive
 from tracking_tools.evaluation.options import add_yardstick
+from tracking_tools.presets import parameter_file, PARAMETER_HELP
 from tracking_tools.sensors import SENSORS
 from tracking_tools.sweeping.crew import cores
 from tracking_tools.sweeping.figures import SHOWN
@@ -30,7 +31,7 @@ def sweep_parser() -> argparse.ArgumentParser:
     add('--runs', type=count, default=1, metavar='N', help='of each scenario, seeds 1 to N')
     add('--output', type=Path, required=True, metavar='DIR', help='kept, and gone on with')
     add('--sensor', choices=SENSORS, default='radar', help='default radar')
-    add('--params', type=Path, metavar='FILE', help='parameter file in ROS form (YAML)')
+    add('--params', type=parameter_file, metavar='FILE', help=PARAMETER_HELP)
     add('--remap', action='append', default=[], metavar='FROM:=TO',
         help='topics of recordings, as plots:=/radar/plots')  # fmt: skip
     add('--truth', type=Path, metavar='BAG', help='of the one recording, where another bag has it')
