@@ -1,7 +1,7 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What Ctrl-C, SIGTERM, a terminal that closes or a pipe that is closed does to a command.
+What Ctrl-C, SIGTERM, a closed terminal or pipe, or a full disk does to a command.
 
 No traceback, nothing half done is left behind, and the exit code is the usual one.
 """
@@ -38,13 +38,22 @@ def stoppable(name: str) -> Callable[[Main], Main]:
                 print(f'{name}: stopped', file=sys.stderr)
                 return STOPPED
             except BrokenPipeError:
-                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the rest
+                _write_no_more()
                 return UNREAD
+            except OSError as error:  # of what is printed, as where a disk is full
+                _write_no_more()
+                print(f'{name}: {error}', file=sys.stderr)
+                return 1
             return code
 
         return stoppable_main
 
     return decorate
+
+
+def _write_no_more() -> None:
+    """Let Python end in peace, which would write the rest."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 @contextmanager

@@ -25,7 +25,7 @@ COMMANDS = [
     ('evaluate', 'evaluate', 'find_sensor', ['BAG', '--truth', 'BAG']),
     ('report', 'report.command', 'find_sensor', ['BAG', '--output', 'PAGE']),
     ('simulate', 'simulate', 'record', ['terminal', '--output', 'BAG']),
-    ('marker_picture', 'marker_picture', 'play', ['BAG', '--params', 'P', '--output', 'PNG']),
+    ('marker_picture', 'marker_picture', 'play', ['BAG', '--params', 'radar', '--output', 'PNG']),
     ('sweep', 'sweep', '_plan', ['crossing', '--output', 'DIR']),
     ('nmea', 'nmea.__main__', 'run', ['FILE', '--bag', 'BAG']),
     ('asterix', 'asterix.__main__', 'run', ['FILE', '--bag', 'BAG']),
@@ -65,6 +65,19 @@ def test_command_that_nobody_reads_ends_quietly(unbuffered: str) -> None:
         )
     assert done.stderr == b''
     assert done.returncode == UNREAD
+
+
+@pytest.mark.parametrize('unbuffered', ['', '1'])
+def test_full_disk_is_said_in_words(unbuffered: str) -> None:
+    """As in evaluate ... > FILE, whether Python writes at once or at the end."""
+    command = [sys.executable, '-m', 'tracking_tools.simulate', '--list']
+    environment = {**os.environ, 'PYTHONUNBUFFERED': unbuffered}
+    with Path('/dev/full').open('wb') as full:
+        done = subprocess.run(
+            command, stdout=full, stderr=subprocess.PIPE, env=environment, check=False
+        )
+    assert done.stderr.decode().strip() == 'simulate: [Errno 28] No space left on device'
+    assert done.returncode == 1
 
 
 @pytest.mark.parametrize(
