@@ -17,13 +17,13 @@ from tracking_core.platform_pose import PlatformPose
 
 MILE, KNOT, DEGREE = 1852.0, 1852.0 / 3600.0, np.pi / 180.0
 PERIOD = 2.5  # s, a turn of the antenna
-# Of [A823] appendix 3: bounds of rectangular errors, sd of the others.
+# Of [A823] appendix 3: bounds of rectangular errors, sd of the others; of the log it tells 3 sd.
 BEAM, ENCODER, BACKLASH, QUANTUM = 0.05 * DEGREE, 0.03 * DEGREE, 0.05 * DEGREE, 0.1 * DEGREE
 PULSE, RANGE_QUANTUM = 20.0, 0.01 * MILE  # m
 GYRO_BIAS, GYRO = 0.5 * DEGREE, 0.12 * DEGREE
-LOG_BIAS, LOG = 0.5 * KNOT, 0.2 * KNOT
+LOG_BIAS, LOG = 0.5 * KNOT, 0.2 / 3.0 * KNOT
 ROLL_ERROR, ROLL_PERIOD = 0.22 * DEGREE, 10.0  # mean and amplitude; s, of the ship's roll
-GLINT = (30.0, 1.0)  # m along and across a ship of 200 m
+GLINT = (30.0, 1.0)  # m along and across a ship of 200 m, from memory
 
 
 @dataclass(frozen=True)

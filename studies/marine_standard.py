@@ -44,7 +44,7 @@ class Cell:
     standard: str
     limit: float  # NaN: it asks nothing
     value: float
-    errors: str = 'listed errors'
+    errors: str = 'still'
 
     @property
     def is_lost(self) -> bool:
@@ -66,7 +66,7 @@ def preset() -> RadarTrackerConfig:
 
 def steady(runs: int, config: RadarTrackerConfig) -> tuple[str, list[Cell]]:
     """Return the table of all scenarios without a turn, and its cells."""
-    rows = ['| scenario | after | error | A.823(19) | listed errors | rolling | MSC.192(79) |',
+    rows = ['| scenario | after | error | A.823(19) | still | rolling | MSC.192(79) |',
             '|---|---|---|---|---|---|---|']  # fmt: skip
     cells: list[Cell] = []
     for encounter in A823:
@@ -76,23 +76,23 @@ def steady(runs: int, config: RadarTrackerConfig) -> tuple[str, list[Cell]]:
         ]
         for minutes, q in product((1, 3), range(len(QUANTITIES))):
             where = f'{encounter.name}, {minutes} min, {QUANTITIES[q]}'
-            listed, rolling = (
+            still, rolling = (
                 tuple(float(end) for end in quantile(e[minutes * MINUTE - 2, q])) for e in errors
             )
             old = A823_LIMITS[encounter.name, minutes][q]
             new = float(msc192_limits(encounter, minutes)[q])
-            cells += _cells(where, {OLD: old, NEW: new}, listed[0], rolling[0])
+            cells += _cells(where, {OLD: old, NEW: new}, still[0], rolling[0])
             rows.append(
-                f'| {" | ".join(where.split(", "))} | {_number(old)} | {_shown(listed, old)} '
-                f'| {_shown(rolling, old)} | {_bold(new, listed[0] > new)} |'
+                f'| {" | ".join(where.split(", "))} | {_number(old)} | {_shown(still, old)} '
+                f'| {_shown(rolling, old)} | {_bold(new, still[0] > new)} |'
             )
     return '\n'.join(rows), cells
 
 
-def _cells(where: str, limits: dict[str, float], listed: float, rolling: float) -> list[Cell]:
+def _cells(where: str, limits: dict[str, float], still: float, rolling: float) -> list[Cell]:
     return [
         Cell(where, standard, limit, value, errors)
-        for errors, value in (('listed errors', listed), ('rolling', rolling))
+        for errors, value in (('still', still), ('rolling', rolling))
         for standard, limit in limits.items()
     ]
 
@@ -168,7 +168,7 @@ def describe(runs: int, scenes: int = SCENES, quiet: bool = True) -> str:
     kept = seldom_seen(config, quiet=quiet)
     before = [
         cell for cell in steady(runs, with_values(config, BEFORE))[1]
-        if cell.standard == OLD and cell.errors == 'listed errors' and not np.isnan(cell.limit)
+        if cell.standard == OLD and cell.errors == 'still' and not np.isnan(cell.limit)
     ]  # fmt: skip
     lost = [str(cell) for cell in [*cells, *later] if cell.is_lost] + wrong
     values: dict[str, Any] = {
