@@ -12,14 +12,14 @@ from __future__ import annotations
 import numpy as np
 
 from radar_tracker.gaps import is_missing, STAMPS
-from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, worth_looking
+from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, tells_of_now, worth_looking
 from radar_tracker.sweep import Beam, Sweep
 from tracking_core.batches import Floats, NO_GAPS, Plots
 from tracking_core.linalg import TURN
 
 ONE_DIRECTION = 0.9  # mean resultant length of the azimuths of a quarter turn
 _FEWEST = 8  # plots from which a rate is learnt
-_SAMPLES = 400  # plots remembered while learning
+_SAMPLES = 400  # plots remembered
 _INTERVALS = 5  # between messages, remembered
 _EAGER = 20  # messages in which a rate is looked for; later in each of so many
 _LONGEST = 2.0  # messages or turns that a plot may be off the stamp of its message
@@ -157,9 +157,9 @@ class Antenna:
             time, azimuth = time[evenly], azimuth[evenly]
         self._time = np.concatenate([self._time, time])[-_SAMPLES:]
         self._azimuth = np.concatenate([self._azimuth, azimuth])[-_SAMPLES:]
-        if not self._rate:
-            kept = worth_looking(self._time, self._period)
-            self._time, self._azimuth = self._time[kept], self._azimuth[kept]
+        time, turn = self._time, self.turn_time
+        kept = tells_of_now(time, turn) if turn else worth_looking(time, self._period)
+        self._time, self._azimuth = time[kept], self._azimuth[kept]
         span = np.ptp(self._time) if len(self._time) else 0.0
         if len(self._time) < _FEWEST or span <= 0.0:
             return

@@ -18,6 +18,7 @@ _STEPS = 8  # candidates from the top of a fit to its first zero
 _STILL = 1e-9  # part of the rate by which it may change and still stand
 _AT_ONCE = 2**16  # plots times candidates whose arrays stay near the processor
 _TURNS = 10.0  # of the slowest antenna; to look for a rate in more is too costly
+_FOLLOWED, _ENOUGH = 3.0, 30  # turns of a known rotation, or so many plots, tell how it is now
 _NEIGHBOURS = 12  # candidates to either side of one that are no different rate
 
 
@@ -51,6 +52,18 @@ def worth_looking(time: Floats, period: float) -> Bools:
     """Return which plots at these times (M,) [s] are of late enough turns to find a rate by."""
     age = time.max(initial=-np.inf) - time
     return np.asarray(age < _TURNS * max(period, PERIODS[1]))
+
+
+def tells_of_now(time: Floats, turn_time: float) -> Bools:
+    """
+    Return which plots at these times (M,) [s] tell how an antenna turns now.
+
+    Motors and wind let it be faster and slower: with a line through a minute of plots it is soon
+    degrees from where it should be.
+    """
+    newest = np.sort(time)[::-1][:_ENOUGH]
+    since = newest.min(initial=time.max(initial=-np.inf) - _FOLLOWED * turn_time)
+    return np.asarray(time >= since)
 
 
 def refine_rate(time: Floats, azimuth: Floats, rate: float) -> float:

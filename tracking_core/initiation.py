@@ -13,7 +13,7 @@ from tracking_core.density import Density
 from tracking_core.faint_starts import share_of_faint, worth_a_track
 from tracking_core.interval import time_of_turns
 from tracking_core.lifecycle_config import InitiationConfig
-from tracking_core.looks import longest_since
+from tracking_core.looks import have_passed, longest_since
 from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_covariance
 from tracking_core.rows import change, take, take_rows
 from tracking_core.space import POINTS, Space
@@ -114,7 +114,8 @@ def two_point(
     evidence = np.bincount(old, likely, len(seeds)) - detection_probability
     usual = density.existence(1.0)
     thinner = density.existence(seeds.relief) / usual
-    prior = share_of_new(usual, thinner, np.asarray(evidence), seeds.free) * seeds.free
+    passed = have_passed(seeds.position, coverage)
+    prior = share_of_new(usual, thinner, np.asarray(evidence), seeds.free, passed) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]
     most_faint = share_of_faint(config.faint_starts, coverage, density)
     keep = worth_a_track(existence, least_existence, leniency, most_faint)

@@ -92,6 +92,14 @@ def _travel(azimuth: Floats, coverage: Coverage) -> Floats:
     return np.asarray(ahead % TURN)
 
 
+def have_passed(position: Floats, coverage: Coverage) -> Bools:
+    """Return which places (K, d) the antenna pointed at in this scan: all, if it does not turn."""
+    if coverage.rotation_rate == 0.0:
+        return np.ones(len(position), bool)
+    x, y = (position[:, :2] - coverage.sensor_position[:2]).T
+    return _travel(np.arctan2(y, x), coverage) <= abs(coverage.sweep)
+
+
 def longest_since(time: Floats, latest: float, coverage: Coverage) -> Floats:
     """
     Return how much later than these (S,) plots at the same place can be, in this scan (S,) [s].

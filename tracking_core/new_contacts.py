@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from tracking_core.batches import Floats, Seeds
+from tracking_core.batches import Bools, Floats, Seeds
 from tracking_core.chances import TINY
 from tracking_core.density import Density
 from tracking_core.lifecycle_config import InitiationConfig
@@ -22,7 +22,9 @@ _MOST_LENIENT = 1000.0  # in clutter that is denser still nothing can be followe
 _TRUST = 200.0  # plots that the expected share of new contacts counts for
 
 
-def share_of_new(expected: float, likely: Floats, evidence: Floats, free: Floats) -> Floats:
+def share_of_new(
+    expected: float, likely: Floats, evidence: Floats, free: Floats, looked_at: Bools
+) -> Floats:
     """
     Return which share of the unclaimed plots (S,) new contacts made.
 
@@ -31,10 +33,12 @@ def share_of_new(expected: float, likely: Floats, evidence: Floats, free: Floats
 
     The expected share is what the parameters say of contacts that come one by one. After a start,
     or when a whole formation appears, it is far too small, and the pairs themselves tell: a few
-    steps of expectation and maximisation, held back by the expectation for want of evidence.
+    steps of expectation and maximisation, held back by the expectation for want of evidence. Only
+    plots `looked_at` (S,) once more tell: in a sector most are elsewhere.
     """
-    one, both = likely * free * (1.0 + evidence), likely * free * evidence
-    share, plots = expected, float(likely.sum())
+    there, free, evidence = likely[looked_at], free[looked_at], evidence[looked_at]
+    one, both = there * free * (1.0 + evidence), there * free * evidence
+    share, plots = expected, float(there.sum())
     for _ in range(_STEPS):
         real = share * float((one / (1.0 + share * both)).sum())
         share = min((_TRUST * expected + real) / (_TRUST + plots), MOST_NEW)

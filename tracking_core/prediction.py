@@ -16,7 +16,7 @@ from tracking_core.pairing import Gates, open_gates, thresholds
 from tracking_core.rows import change, take, take_rows
 
 _CLOCK = 1e-6  # s; times since 1970 are good to 2.4e-7
-_GATES_APART = 2.0  # 3-sigma gates between a track and where its next gate may begin
+_GATES_APART = 4.0  # gates between a track and where its next one, after a miss, may begin
 
 
 @dataclass(frozen=True)
@@ -66,22 +66,25 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
     )  # fmt: skip
 
 
-def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]:
+def next_passes(
+    updated: Tracks, half_size: Floats, lives: Bools, scan: Scan
+) -> tuple[bool, Bools]:
     """
     Return whether the antenna has passed a living track once more in the same message.
 
     A sector does so only after a gap: the first pass was before it. The next pass may also have
-    begun only: then its plots (M,) must wait, they are the other thing returned.
+    begun only: then its plots (M,) must wait, they are the other thing returned. `half_size`
+    (T, d) is of the gates of this look, of any mode.
     """
     waiting = np.zeros(len(scan), bool)
     is_after_gap = scan.coverage.gaps[-1][1] == scan.coverage.start_time
     if abs(scan.coverage.sweep) < np.pi and not is_after_gap:
         return False, waiting
-    motion = (*_level_motion(updated), updated.time, updated.gate_size[:, :2])
+    motion = (*_level_motion(updated), updated.time, half_size[:, :2])
     rows = lives.nonzero()[0]
-    position, velocity, time, gate_size = (take_rows(part, rows) for part in motion)
+    position, velocity, time, gate = (take_rows(part, rows) for part in motion)
     looks = next_looks(position, velocity, time, scan.coverage)
-    size = _GATES_APART * gate_size.max(axis=1, initial=0.0)
+    size = _GATES_APART * gate.max(axis=1, initial=0.0)
     margin = margins(position, size, scan.coverage)
     begun = looks.time - margin <= scan.coverage.end_time
     if begun.any():
@@ -92,8 +95,8 @@ def next_passes(updated: Tracks, lives: Bools, scan: Scan) -> tuple[bool, Bools]
         track, plot = box_pairs(place, box, take_rows(scan.position[:, :2], plots))
         early = np.abs(scan.time[plots[plot]] - late[track]) <= margin[begun][track]
         waiting[plots[plot[early]]] = True
-    # A little more than complete, lest a contact beside the cut takes turns at waiting or not.
-    complete = looks.time + 2.0 * margin <= scan.coverage.end_time
+    # More than complete, lest a contact beside the cut takes turns at waiting or not.
+    complete = looks.time + margin <= scan.coverage.end_time
     return bool(complete.any()), waiting
 
 

@@ -101,7 +101,7 @@ def look(tracks: Tracks, scan: Scan, setup: Setup, density: Density) -> Look:
 
     claimed = np.asarray(np.bincount(gated.pairs.plot, share.claim, len(scan)), np.float64)
     lives = due & ~(ended | broken)
-    again, early = next_passes(updated, lives, scan)
+    again, early = next_passes(updated, predicted.gates.half_size, lives, scan)
     kept, worked_on = np.ones(len(tracks), bool), np.zeros(len(tracks), bool)
     kept[near.row[due]], worked_on[near.row[due]] = lives[due], True
     return Look(

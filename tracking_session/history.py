@@ -156,6 +156,8 @@ class History:
             self._floor, self._steps = first, self._steps[1:]
             if is_full:
                 self._crowded = first
+        if turn_time:  # half a scan apart: stamps of whole turns are no limit, as they are rounded
+            self._floor = max(self._floor, self._oldest - 0.5 * turn_time)
 
     def _take_after(self, stamp: float) -> tuple[Step, ...]:
         """Take out the messages that are newer than this stamp, and return them."""

@@ -15,6 +15,7 @@ from radar_tracker.antenna import Antenna
 from radar_tracker.sweep import Sweep
 from studies.scenes import messages
 from tracking_core.batches import Plots
+from tracking_core.linalg import TURN, wrap_angle
 from tracking_tools.scenarios import Contact, Legs, Scenario, SimulatedRadar
 
 CONTACTS = tuple(
@@ -70,6 +71,19 @@ def test_follow_says_where_the_antenna_points(sectors: int) -> None:
         assert_allclose(np.angle(np.exp(1j * off)), 0.0, atol=0.02)
     turned = sum(sweep.angle for sweep in sweeps[-sectors:])
     assert turned == pytest.approx(-2.0 * np.pi, rel=0.05)
+
+
+def test_follow_keeps_pace_with_an_antenna_whose_speed_drifts() -> None:
+    """Faster and slower by 1 % within a minute: no plot is far from where it points."""
+    antenna, off = Antenna(0.0, True, 'start'), []
+    for plots in sensed(4.0, 'clockwise', 45):
+        late = (10.0 / 90.0) * np.sin(TURN * plots.time / 60.0)  # by 10 degrees at most [s]
+        drifting = replace(plots, time=plots.time + late)
+        sweep = antenna.follow(drifting, drifting.azimuth)
+        rate = sweep.angle / (sweep.end_time - sweep.start_time)
+        pointed = sweep.start_azimuth + rate * (drifting.time - sweep.start_time)
+        off.append(np.abs(wrap_angle(drifting.azimuth - pointed)).max())
+    assert np.degrees(max(off[5:])) < 2.5  # 13 with all that are remembered
 
 
 def test_follow_knows_a_sensor_that_stares() -> None:

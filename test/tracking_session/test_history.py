@@ -79,6 +79,16 @@ def test_sectors_are_kept_for_three_turns():
     assert not history.takes(49.5 - 12.0 - 0.6)
 
 
+@pytest.mark.parametrize('turn', [4.0 - 1e-6, 4.0, 4.0 + 1e-6])
+def test_turns_are_late_by_whole_ones(turn):
+    """Three may be, four not, whatever the time of a turn is rounded to."""
+    messages = [4.0 * k for k in range(10)]
+    for missing, late in ((20.0, False), (24.0, True)):
+        history = filled([t for t in messages if t != missing], turn=turn)
+        assert history.takes(missing) is late
+        assert history.has_lost(missing) is not late
+
+
 @pytest.mark.parametrize(('sectors', 'tracks'), [(128, 300), (64, 900), (20, 100_000)])
 def test_narrow_sectors_have_a_place_for_three_turns(sectors, tracks):
     """As far as the number of tracks allows."""
