@@ -10,6 +10,7 @@ user orders is in ``orders.py``.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage
@@ -178,7 +179,7 @@ class Session:
     def ownship(self, msg: Any, received: float) -> None:
         """Take one odometry of the platform."""
         try:
-            sample = to_platform(msg)
+            sample = to_platform(msg, partial(self.ledger.unused, 'ownship'))
             frame, time = frame_of(msg), float(sample.time[0])
             appeared = self.frame.check_ownship(frame, time)
             if self.whereabouts.take(sample, received) or appeared:
