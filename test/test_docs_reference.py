@@ -186,6 +186,7 @@ def lines_of_sessions():
     leap = [own_ship(90.0), own_ship(90.5), *(own_ship(91.0 + step, x=1e3) for step in range(3))]
     use(odometry=leap)
     use(odometry=[own_ship(90.0, yaw_variance=99999.0)])
+    use(odometry=[own_ship(90.0 + step, x=8.0 * step) for step in range(40)])
     return said
 
 

@@ -184,6 +184,7 @@ class Session:
             appeared = self.frame.check_ownship(frame, time)
             if self.whereabouts.take(sample, received) or appeared:
                 self._start_anew('own ship appeared' if appeared else 'own ship is elsewhere')
+            self.ledger.doubt(self.whereabouts.doubts())
         except BadMessage as error:
             self.ledger.refuse('ownship', error.reason, error)
 

@@ -4,15 +4,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Protocol
 
 from msg_adapters.row_checks import MAX_OFFSET
 from tracking_core.batches import Floats
 from tracking_core.platform import Platform
+from tracking_session.doubts import Doubt
 from tracking_session.frames import TrackingFrame
 from tracking_session.leap_guard import LeapGuard
 from tracking_session.node_config import NodeConfig
 from tracking_session.stamp_guard import StampGuard
+from tracking_session.twist_check import TwistCheck
 
 NEAREST = 0.007  # s between two samples that are kept; odometry up to 125 Hz is kept whole
 
@@ -51,6 +54,7 @@ class Whereabouts:
         self._config, self.transforms = node_config, None
         self._guard = StampGuard(node_config.time_jump_threshold)
         self._leaps = LeapGuard(node_config.ownship_leap, node_config.ownship_timeout)
+        self._twist = TwistCheck(node_config.ownship_timeout)
         self.reset()
 
     transforms: Transforms | None
@@ -59,6 +63,7 @@ class Whereabouts:
         """Forget the path."""
         self._guard.reset()
         self._leaps.reset()
+        self._twist.reset()
         self.platform = Platform.empty(self._config.ownship_timeout)
 
     def clock_moved(self) -> None:
@@ -73,9 +78,15 @@ class Whereabouts:
         has_leapt = self._leaps.accept(sample)
         if has_jumped or has_leapt:
             self.platform = Platform.empty(self._config.ownship_timeout)
+            self._twist.reset()
+        self._twist.take(sample)
         if not (sample.time - self.platform.time[-1:] < NEAREST).any():
             self.platform = self.platform.add(sample, span=MAX_OFFSET)
         return has_leapt
+
+    def doubts(self) -> Iterator[Doubt]:
+        """Yield what own ship says against itself."""
+        return self._twist.doubts()
 
     def covering(self, times: Floats, frame: TrackingFrame) -> Platform | None:
         """
