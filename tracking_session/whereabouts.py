@@ -105,6 +105,6 @@ class Whereabouts:
             newest = self.platform.time[-1:]
             if (newest - samples.time[0] > self._config.time_jump_threshold).any():
                 self.platform = Platform.empty(self._config.ownship_timeout)
-            self.platform = self.platform.add(samples)
+            self.platform = self.platform.add(samples, span=MAX_OFFSET)
         self.platform.at(times)  # raises where they are not covered
         return self.platform
