@@ -58,9 +58,11 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
         lag = coverage.end_time - _travel(azimuth(lag), coverage) / abs(rate) - time
     margin = LARGEST_MARGIN * period
     passed = _first_pass(lag, time, period, coverage)
-    # A turn later the contact is elsewhere, by more than its gate if it is fast and near.
-    antenna = coverage.start_azimuth + rate * (passed + (time - coverage.start_time))
-    passed = passed + wrap_angle(azimuth(passed) - antenna) / rate
+    # A turn later the contact is elsewhere, by more than its gate if it is fast and near; and the
+    # antenna is where its platform has swung it.
+    for _ in range(2 if any(coverage.swing) else 1):
+        antenna = coverage.azimuth_at(time + passed)
+        passed = passed + wrap_angle(azimuth(passed) - antenna) / rate
     passed = time + np.maximum(passed, 0.5 * period)
     return Looks(passed, passed - margin < coverage.end_time)
 

@@ -47,7 +47,8 @@ class _Place:
         """Return how far [m] the later place may be off by what the two do not know themselves."""
         off = self.off(later)
         way = off / max(float(np.linalg.norm(off)), 1e-9)
-        return SPREAD * math.sqrt(max(way @ (self.covariance + later.covariance) @ way, 0.0))
+        variance = float(way @ (self.covariance + later.covariance) @ way)
+        return SPREAD * math.sqrt(max(variance, 0.0))
 
     def roamed(self, later: _Place) -> float:
         """Return how far [m] the later place may be off, whatever own ship did in between."""
