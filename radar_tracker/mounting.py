@@ -125,18 +125,22 @@ def coverage_of(sweep: Sweep, poses: PlatformPose, sensor: SensorConfig) -> Cove
     rotation, place = sensor_pose(poses, sensor.mount)
     turned = _turned(rotation, sweep.start_azimuth + sweep.angle * share)
     swing = turned - (turned[0] + (turned[-1] - turned[0]) * share)
-    x, y, z = place[-1]
+    duration = sweep.end_time - sweep.start_time
+    velocity = (place[-1] - place[0]) / duration if duration > 0.0 else np.zeros(3)
+    x, y, z = (0.5 * (place[0] + place[-1])).tolist()
     return Coverage(
         start_time=sweep.start_time,
         end_time=sweep.end_time,
         start_azimuth=sweep.start_azimuth + float(turned[0]),
         sweep=sweep.angle + float(turned[-1] - turned[0]) if sweep.angle else 0.0,
         gaps=sweep.gaps,
-        sensor_position=(float(x), float(y), float(z)),
+        sensor_position=(x, y, z),
+        sensor_velocity=tuple(velocity.tolist()),
         range_min=sensor.range_min,
         range_max=sensor.range_max,
         sector_centre=sensor.sector_centre + float(poses.yaw[-1]) + sensor.mount.yaw,
         sector_width=sensor.sector_width,
+        tilt=0.0 if rotation is None else float(np.arccos(min(rotation[:, 2, 2].min(), 1.0))),
         swing=tuple(swing.tolist()) if sweep.angle and sweep.is_long else NO_SWING,
     )
 

@@ -110,12 +110,13 @@ class Coverage:
     start_azimuth: float = 0.0  # tracking axes [rad]
     sweep: float = 0.0  # signed, anticlockwise positive [rad]
     gaps: Gaps = NO_GAPS  # during which the sensor was not followed
-    sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # tracking frame [m]
-    sensor_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)  # at the middle of it [m/s]
+    sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # in the middle of it [m]
+    sensor_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)  # [m/s]
     range_min: float = 0.0  # [m]
     range_max: float = np.inf  # [m]
     sector_centre: float = 0.0  # what the sensor can see at all [rad]
     sector_width: float = 2.0 * np.pi  # [rad]
+    tilt: float = 0.0  # of the antenna's axis from the vertical, at most [rad]
     swing: tuple[float, ...] = NO_SWING  # ahead of an even turn, in even steps of the time [rad]
 
     def sensor_at(self, time: Floats) -> Floats:
