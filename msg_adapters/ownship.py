@@ -17,7 +17,7 @@ from tracking_core.platform import Platform
 
 UNIT = 0.01  # how far the length of a quaternion may be from 1
 FARTHEST = 1e8  # m, or m/s: beyond is no platform
-ANY_YAW = np.pi**2 / 3.0  # rad^2, of a heading that may be any
+ANY_PLACE, ANY_YAW = 1e6, np.pi**2 / 3.0  # m^2 over the ground, rad^2: more is not known at all
 _ROUNDING = 1e-9  # of the variances, by which an eigenvalue may be negative
 Tell = Callable[[str, str], object]  # takes a reason, without values, and a text
 
@@ -72,8 +72,8 @@ def _numbers(field: str, part: Any, names: str) -> Floats:
 
 def _place_noise(covariance: Floats, tell: Tell) -> Floats:
     """Return the covariance (3, 3) of a place within reach, zero where it is that of none."""
-    variance = np.diagonal(covariance)
-    if np.isfinite(covariance).all() and ((variance >= 0.0) & (variance <= FARTHEST**2)).all():
+    variance, most = np.diagonal(covariance), [ANY_PLACE, ANY_PLACE, FARTHEST**2]
+    if np.isfinite(covariance).all() and ((variance >= 0.0) & (variance <= most)).all():
         least = np.linalg.eigvalsh(0.5 * covariance + 0.5 * covariance.T)[0]
         if least >= -_ROUNDING * variance.sum():
             return covariance

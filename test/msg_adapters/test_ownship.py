@@ -75,6 +75,16 @@ def test_heading_that_may_be_any_leaves_the_place_unsure(types, variance):
     assert list(told) == ['variance of the heading']
 
 
+@pytest.mark.parametrize(('axis', 'is_told'), [(0, True), (1, True), (2, False)])
+def test_place_that_may_be_any_is_that_of_none(types, axis, is_told):
+    """Two kilometres over the ground; of heights it is usual where there is none."""
+    told, covariance = {}, np.diag([1.0, 2.0, 3.0, 0.1, 0.1, 0.1])
+    covariance[axis, axis] = 4e6
+    sample = to_platform(odometry(types, covariance=covariance.ravel()), told.__setitem__)
+    assert list(told) == ['covariance of the place'] * is_told
+    assert sample.position_covariance.any() != is_told
+
+
 def test_covariance_of_a_line_is_one(types):
     """Own ship may know one direction only; rounding makes one of its variances negative."""
     place = np.zeros((6, 6))
