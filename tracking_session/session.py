@@ -123,6 +123,8 @@ class Session:
             self.instrument.check(frame, self.ledger.warn)
         platform = self.whereabouts.covering(self.instrument.moments(plots), frame)
         self.frame = frame
+        if self.whereabouts.has_leapt():
+            self._start_anew('the sensor is elsewhere')
         if self._history.takes(plots.stamp) and not self.guard.is_going_back:
             self._history.insert(plots, platform, self.frame)
             self._use(reading)
