@@ -10,8 +10,7 @@ import numpy as np
 
 from radar_tracker.sensor_config import MountConfig, SensorConfig
 from radar_tracker.sweep import Sweep
-from tracking_core.batches import Coverage, Floats, Plots
-from tracking_core.linalg import wrap_angle
+from tracking_core.batches import Coverage, Floats, NO_SWING, Plots
 from tracking_core.platform_pose import PlatformPose
 
 _LEAST_UPRIGHT = 0.1  # of the deck's normal; a radar that lies on its side sees no horizon
@@ -108,23 +107,51 @@ def _turned_back(back: Floats, position: Floats) -> Floats:
     return np.where(np.isnan(position[:, :1]), np.nan, place)
 
 
-def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Coverage:
-    """Turn what the antenna swept into the tracking frame; `ends` are the first and last pose."""
-    heading = ends.yaw + sensor.mount.yaw
-    yawed = float(wrap_angle(heading[1] - heading[0]))
-    x, y, z = sensor_pose(ends, sensor.mount)[1][1]
+def coverage_of(sweep: Sweep, poses: PlatformPose, sensor: SensorConfig) -> Coverage:
+    """
+    Turn what the antenna swept into the tracking frame.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        In sensor axes.
+    poses : PlatformPose
+        In even steps from start to end.
+    sensor : SensorConfig
+        Mount and limits.
+
+    """
+    share = np.linspace(0.0, 1.0, len(poses.position))
+    rotation, place = sensor_pose(poses, sensor.mount)
+    turned = _turned(rotation, sweep.start_azimuth + sweep.angle * share)
+    swing = turned - (turned[0] + (turned[-1] - turned[0]) * share)
+    duration = sweep.end_time - sweep.start_time
+    velocity = (place[-1] - place[0]) / duration if duration > 0.0 else np.zeros(3)
+    x, y, z = (0.5 * (place[0] + place[-1])).tolist()
     return Coverage(
         start_time=sweep.start_time,
         end_time=sweep.end_time,
-        start_azimuth=sweep.start_azimuth + float(heading[0]),
-        sweep=sweep.angle + yawed if sweep.angle else 0.0,
+        start_azimuth=sweep.start_azimuth + float(turned[0]),
+        sweep=sweep.angle + float(turned[-1] - turned[0]) if sweep.angle else 0.0,
         gaps=sweep.gaps,
-        sensor_position=(float(x), float(y), float(z)),
+        sensor_position=(x, y, z),
+        sensor_velocity=tuple(velocity.tolist()),
         range_min=sensor.range_min,
         range_max=sensor.range_max,
-        sector_centre=sensor.sector_centre + float(heading[1]),
+        sector_centre=sensor.sector_centre + float(poses.yaw[-1]) + sensor.mount.yaw,
         sector_width=sensor.sector_width,
+        tilt=0.0 if rotation is None else float(np.arccos(min(rotation[:, 2, 2].min(), 1.0))),
+        swing=tuple(swing.tolist()) if sweep.angle and sweep.is_long else NO_SWING,
     )
+
+
+def _turned(rotation: Floats | None, azimuth: Floats) -> Floats:
+    """Return how far the platform has turned what is at these azimuths (K,) of its deck [rad]."""
+    if rotation is None:
+        return np.zeros(len(azimuth))
+    on_deck = np.stack([np.cos(azimuth), np.sin(azimuth), 0.0 * azimuth], axis=1)
+    about = levelled(rotation, on_deck)
+    return np.asarray(np.unwrap(np.arctan2(about[:, 1, 0], about[:, 0, 0])))
 
 
 def platform_noise(pose: PlatformPose, offset: Floats) -> Floats:

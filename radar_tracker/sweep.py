@@ -6,7 +6,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tracking_core.batches import Gaps, NO_GAPS
+import numpy as np
+
+from tracking_core.batches import Floats, Gaps, NO_GAPS, NO_SWING
+
+EVEN = 0.1  # s, in which a platform turns evenly
 
 
 @dataclass(frozen=True)
@@ -18,6 +22,16 @@ class Sweep:
     start_azimuth: float = 0.0  # sensor axes [rad]
     angle: float = 0.0  # signed [rad]; 0: a look everywhere at once
     gaps: Gaps = NO_GAPS  # before it
+
+    @property
+    def is_long(self) -> bool:
+        """Whether a platform may swing in it."""
+        return self.end_time - self.start_time > EVEN
+
+    @property
+    def moments(self) -> Floats:
+        """Return times (K,) in even steps from start to end [s]."""
+        return np.linspace(self.start_time, self.end_time, len(NO_SWING) if self.is_long else 2)
 
 
 @dataclass(frozen=True)

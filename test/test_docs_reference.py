@@ -131,10 +131,11 @@ def normal(line):
     return re.sub(r'-?\d+(\.\d+)?', '0', line.strip())
 
 
-def own_ship(stamp, frame='map', x=0.0):
+def own_ship(stamp, frame='map', x=0.0, yaw_variance=0.0):
     """Return odometry of a ship at rest."""
     msg = Odometry(header=TYPES.header(stamp, frame))
     msg.pose.pose.orientation.w, msg.pose.pose.position.x = 1.0, x
+    msg.pose.covariance[35] = yaw_variance
     return msg
 
 
@@ -184,6 +185,8 @@ def lines_of_sessions():
     use(*plots_of_eight(3e4, 4.0))
     leap = [own_ship(90.0), own_ship(90.5), *(own_ship(91.0 + step, x=1e3) for step in range(3))]
     use(odometry=leap)
+    use(odometry=[own_ship(90.0, yaw_variance=99999.0)])
+    use(odometry=[own_ship(90.0 + step, x=8.0 * step) for step in range(40)])
     return said
 
 

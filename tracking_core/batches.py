@@ -21,6 +21,7 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 Gaps = tuple[tuple[float, float], ...]  # from when to when nobody looked [s], the last ones
 NO_GAPS: Gaps = 8 * ((-np.inf, -np.inf),)
+NO_SWING = 33 * (0.0,)
 
 
 @dataclass(frozen=True)
@@ -99,8 +100,9 @@ class Coverage:
     """
     Where and when a scan looked.
 
-    A rotating antenna points at `start_azimuth` at `start_time` and turns evenly by `sweep`
-    until `end_time`. A `sweep` of 0 is a sensor that looks everywhere at once.
+    A rotating antenna points at `start_azimuth` at `start_time` and turns by `sweep` until
+    `end_time`, evenly but for what its platform swings meanwhile. A `sweep` of 0 is a sensor that
+    looks everywhere at once.
     """
 
     start_time: float  # [s]
@@ -108,12 +110,14 @@ class Coverage:
     start_azimuth: float = 0.0  # tracking axes [rad]
     sweep: float = 0.0  # signed, anticlockwise positive [rad]
     gaps: Gaps = NO_GAPS  # during which the sensor was not followed
-    sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # tracking frame [m]
-    sensor_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)  # at the middle of it [m/s]
+    sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # in the middle of it [m]
+    sensor_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)  # [m/s]
     range_min: float = 0.0  # [m]
     range_max: float = np.inf  # [m]
     sector_centre: float = 0.0  # what the sensor can see at all [rad]
     sector_width: float = 2.0 * np.pi  # [rad]
+    tilt: float = 0.0  # of the antenna's axis from the vertical, at most [rad]
+    swing: tuple[float, ...] = NO_SWING  # ahead of an even turn, in even steps of the time [rad]
 
     def sensor_at(self, time: Floats) -> Floats:
         """Return x, y, vx, vy (T, 4) of the sensor, which goes on straight about the middle."""
@@ -122,6 +126,12 @@ class Coverage:
         state[:, 2:] = self.sensor_velocity[:2]
         state[:, :2] = self.sensor_position[:2] + state[:, 2:] * since[:, None]
         return state
+
+    def azimuth_at(self, time: Floats) -> Floats:
+        """Return where the antenna points (T,) [rad], without the turns that it has made."""
+        moments = np.linspace(self.start_time, self.end_time, len(self.swing))
+        even = self.start_azimuth + self.rotation_rate * (time - self.start_time)
+        return np.asarray(even + np.interp(time, moments, self.swing))
 
     @property
     def rotation_rate(self) -> float:

@@ -48,7 +48,8 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
         middle = 0.5 * (coverage.start_time + coverage.end_time)
         return Looks(np.full(len(time), middle), np.ones(len(time), bool))
     period = TURN / abs(rate)
-    (x, y), (vx, vy) = (position - coverage.sensor_position[:2]).T, velocity.T
+    sensor = coverage.sensor_at(time)
+    (x, y), (vx, vy) = (position - sensor[:, :2]).T, (velocity - sensor[:, 2:]).T
 
     def azimuth(lag: Floats) -> Floats:
         return np.asarray(np.arctan2(y + vy * lag, x + vx * lag))
@@ -58,9 +59,11 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
         lag = coverage.end_time - _travel(azimuth(lag), coverage) / abs(rate) - time
     margin = LARGEST_MARGIN * period
     passed = _first_pass(lag, time, period, coverage)
-    # A turn later the contact is elsewhere, by more than its gate if it is fast and near.
-    antenna = coverage.start_azimuth + rate * (passed + (time - coverage.start_time))
-    passed = passed + wrap_angle(azimuth(passed) - antenna) / rate
+    # A turn later the contact is elsewhere, by more than its gate if it is fast and near; and the
+    # antenna is where its platform has swung it.
+    for _ in range(2 if any(coverage.swing) else 1):
+        antenna = coverage.azimuth_at(time + passed)
+        passed = passed + wrap_angle(azimuth(passed) - antenna) / rate
     passed = time + np.maximum(passed, 0.5 * period)
     return Looks(passed, passed - margin < coverage.end_time)
 
@@ -132,7 +135,7 @@ def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
 
     Parameters
     ----------
-    position : (T, 2) array
+    position : (T, 2) or (T, 3) array
         Predicted [m].
     half_size : (T,) array
         Largest half size of the gate [m].
@@ -143,8 +146,11 @@ def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
     rate = abs(coverage.rotation_rate)
     if rate == 0.0:
         return np.zeros(len(position))
-    x, y = coverage.sensor_position[:2]
-    angle = np.arctan2(half_size, np.hypot(position[:, 0] - x, position[:, 1] - y))
+    offset = position - np.array(coverage.sensor_position[: position.shape[1]])
+    distance = np.hypot(offset[:, 0], offset[:, 1])
+    angle = np.arctan2(half_size, distance)
+    if position.shape[1] == 3:  # one that leans passes what is high before its time, or after it
+        angle += coverage.tilt * np.abs(offset[:, 2]) / np.maximum(distance, 1.0)
     return np.asarray(np.minimum(angle, LARGEST_MARGIN * TURN) / rate)
 
 

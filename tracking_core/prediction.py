@@ -60,7 +60,7 @@ def predict_tracks(tracks: Tracks, scan: Scan, setup: Setup) -> Predicted:
         near, planes=planes, time=time, existence_probability=setup.lifecycle.prior(near, dt)
     )
     return Predicted(
-        row, predicted, margins(gates.centre[:, :2], widest, scan.coverage), gates,
+        row, predicted, margins(gates.centre, widest, scan.coverage), gates,
         np.where(inside, setup.sensor.detection_probability, 0.0),
         gates.volume * setup.sensor.clutter_volume(gates.centre, scan.coverage),
     )  # fmt: skip

@@ -79,7 +79,8 @@ class Health:
         if crowded:
             yield f'several publishers on {" and ".join(crowded)}'
         yield from sorted(new)
-        yield from (doubt.what for doubt in session.instrument.doubts())
+        doubts = chain(session.instrument.doubts(), session.whereabouts.doubts())
+        yield from (doubt.what for doubt in doubts)
 
     def told(self, session: Session) -> None:
         """Take note that complaints up to now have been reported."""

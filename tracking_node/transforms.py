@@ -14,7 +14,7 @@ from tracking_core.platform import Platform
 from tracking_node.clocks import to_duration, to_time
 from tracking_session.whereabouts import NotYet
 
-LOOKS = 5  # transforms asked for within one message; the platform turns evenly in between
+STEP = 0.1  # s at most between transforms that are asked for; meanwhile platforms turn evenly
 KEPT = 60  # s that tf2 remembers: longer than any antenna turns
 LEAD = 0.2  # s before the first plot that one more is asked for, to know how fast it moves
 
@@ -59,9 +59,9 @@ class TfTransforms:
         if last < self._newest - KEPT:  # a bag that begins anew: tf2 would not hear of old times
             self._buffer.clear()
             self._newest = last
-        wanted = np.unique(np.linspace(first, last, LOOKS))
-        try:
-            rows = [self._look(into, frame, time) for time in wanted]
+        wanted = np.unique(np.linspace(first, last, 2 + int((last - first) / STEP)))
+        try:  # the last one first, for which plots wait
+            rows = [self._look(into, frame, time) for time in wanted[::-1]][::-1]
         except self._tf2.TransformException as error:
             raise NotYet(f"no transform from '{frame}' to '{into}': {error}") from error
         self._newest = max(self._newest, last)

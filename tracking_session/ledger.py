@@ -59,6 +59,11 @@ class Ledger:
                 self._doubted.add(what)
                 self._say(text)
 
+    def unused(self, topic: str, reason: str, text: str) -> None:
+        """Count a value of a message that is not used, and tell it once."""
+        self.counts[topic].doubtful[reason] += 1
+        self.doubt([Doubt(f'{topic}: {reason}', text)])
+
     def shed(self, topic: str) -> None:
         """Count a message that is passed over for a newer one."""
         self.counts[topic].shed += 1

@@ -10,6 +10,7 @@ user orders is in ``orders.py``.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage
@@ -122,6 +123,8 @@ class Session:
             self.instrument.check(frame, self.ledger.warn)
         platform = self.whereabouts.covering(self.instrument.moments(plots), frame)
         self.frame = frame
+        if self.whereabouts.has_leapt():
+            self._start_anew('the sensor is elsewhere')
         if self._history.takes(plots.stamp) and not self.guard.is_going_back:
             self._history.insert(plots, platform, self.frame)
             self._use(reading)
@@ -178,11 +181,12 @@ class Session:
     def ownship(self, msg: Any, received: float) -> None:
         """Take one odometry of the platform."""
         try:
-            sample = to_platform(msg)
+            sample = to_platform(msg, partial(self.ledger.unused, 'ownship'))
             frame, time = frame_of(msg), float(sample.time[0])
             appeared = self.frame.check_ownship(frame, time)
             if self.whereabouts.take(sample, received) or appeared:
                 self._start_anew('own ship appeared' if appeared else 'own ship is elsewhere')
+            self.ledger.doubt(self.whereabouts.doubts())
         except BadMessage as error:
             self.ledger.refuse('ownship', error.reason, error)
 

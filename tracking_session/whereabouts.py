@@ -4,15 +4,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Protocol
 
+import numpy as np
+
+from msg_adapters.bad_message import BadMessage
 from msg_adapters.row_checks import MAX_OFFSET
 from tracking_core.batches import Floats
 from tracking_core.platform import Platform
+from tracking_core.rows import take
+from tracking_session.doubts import Doubt
 from tracking_session.frames import TrackingFrame
 from tracking_session.leap_guard import LeapGuard
 from tracking_session.node_config import NodeConfig
 from tracking_session.stamp_guard import StampGuard
+from tracking_session.twist_check import TwistCheck
 
 NEAREST = 0.007  # s between two samples that are kept; odometry up to 125 Hz is kept whole
 
@@ -51,6 +58,7 @@ class Whereabouts:
         self._config, self.transforms = node_config, None
         self._guard = StampGuard(node_config.time_jump_threshold)
         self._leaps = LeapGuard(node_config.ownship_leap, node_config.ownship_timeout)
+        self._twist = TwistCheck(node_config.ownship_timeout)
         self.reset()
 
     transforms: Transforms | None
@@ -59,7 +67,9 @@ class Whereabouts:
         """Forget the path."""
         self._guard.reset()
         self._leaps.reset()
+        self._twist.reset()
         self.platform = Platform.empty(self._config.ownship_timeout)
+        self._has_leapt = False
 
     def clock_moved(self) -> None:
         """Take note that the ROS clock went back: the next odometry that did so is believed."""
@@ -73,9 +83,15 @@ class Whereabouts:
         has_leapt = self._leaps.accept(sample)
         if has_jumped or has_leapt:
             self.platform = Platform.empty(self._config.ownship_timeout)
+            self._twist.reset()
+        self._twist.take(sample)
         if not (sample.time - self.platform.time[-1:] < NEAREST).any():
             self.platform = self.platform.add(sample, span=MAX_OFFSET)
         return has_leapt
+
+    def doubts(self) -> Iterator[Doubt]:
+        """Yield what own ship says against itself."""
+        return self._twist.doubts()
 
     def covering(self, times: Floats, frame: TrackingFrame) -> Platform | None:
         """
@@ -90,10 +106,30 @@ class Whereabouts:
         if not frame.needs_platform:
             return None
         if self.transforms is not None:
-            samples = self.transforms.sensor(str(frame.sensor), frame.name, times)
-            newest = self.platform.time[-1:]
-            if (newest - samples.time[0] > self._config.time_jump_threshold).any():
-                self.platform = Platform.empty(self._config.ownship_timeout)
-            self.platform = self.platform.add(samples)
+            self._follow(self.transforms.sensor(str(frame.sensor), frame.name, times))
         self.platform.at(times)  # raises where they are not covered
         return self.platform
+
+    def _follow(self, samples: Platform) -> None:
+        """Take what the transforms tell of a message; what is newer than all before may leap."""
+        newest = self.platform.time[-1:]
+        if (newest - samples.time[0] > self._config.time_jump_threshold).any():
+            self.platform, newest = Platform.empty(self._config.ownship_timeout), newest[:0]
+            self._leaps.reset()
+        fresh = samples.time > newest.max(initial=-np.inf)
+        leapt = [row for row in fresh.nonzero()[0].tolist() if self._leaps_at(samples, row)]
+        if leapt:
+            self.platform = Platform.empty(self._config.ownship_timeout)
+            samples, self._has_leapt = take(samples, slice(leapt[-1], None)), True
+        self.platform = self.platform.add(samples, span=MAX_OFFSET)
+
+    def _leaps_at(self, samples: Platform, row: int) -> bool:
+        try:
+            return self._leaps.accept(take(samples, slice(row, row + 1)))
+        except BadMessage:  # it may lead back: then it was none
+            return False
+
+    def has_leapt(self) -> bool:
+        """Return whether the sensor has leapt since this was asked last, by its transforms."""
+        has_leapt, self._has_leapt = self._has_leapt, False
+        return has_leapt

@@ -54,11 +54,35 @@ def test_pose_that_is_none_is_refused(types, changes, match):
 
 
 @pytest.mark.parametrize('value', [np.nan, -1.0, np.inf])
-def test_covariance_that_is_none_counts_as_zero(types, value):
+def test_covariance_that_is_none_counts_as_zero_and_is_told(types, value):
     """Drivers that do not know fill in anything."""
-    sample = to_platform(odometry(types, covariance=np.full(36, value)))
+    told = {}
+    sample = to_platform(odometry(types, covariance=np.full(36, value)), told.__setitem__)
     assert not sample.position_covariance.any()
     assert not sample.yaw_variance.any()
+    assert f'variances of x y z = {value:g}, ' in told['covariance of the place']
+    assert f'[35] = {value:g} rad^2 is that of no heading' in told['variance of the heading']
+
+
+@pytest.mark.parametrize('variance', [4.0, 1e5])
+def test_heading_that_may_be_any_leaves_the_place_unsure(types, variance):
+    """As receivers tell that know no heading; what is nothing to us may be anything."""
+    covariance = np.diag([1.0, 2.0, 3.0, np.nan, -1.0, variance])
+    told = {}
+    sample = to_platform(odometry(types, covariance=covariance.ravel()), told.__setitem__)
+    np.testing.assert_array_equal(sample.position_covariance[0], np.diag([1.0, 2.0, 3.0]))
+    assert not sample.yaw_variance.any()
+    assert list(told) == ['variance of the heading']
+
+
+@pytest.mark.parametrize(('axis', 'is_told'), [(0, True), (1, True), (2, False)])
+def test_place_that_may_be_any_is_that_of_none(types, axis, is_told):
+    """Two kilometres over the ground; of heights it is usual where there is none."""
+    told, covariance = {}, np.diag([1.0, 2.0, 3.0, 0.1, 0.1, 0.1])
+    covariance[axis, axis] = 4e6
+    sample = to_platform(odometry(types, covariance=covariance.ravel()), told.__setitem__)
+    assert list(told) == ['covariance of the place'] * is_told
+    assert sample.position_covariance.any() != is_told
 
 
 def test_covariance_of_a_line_is_one(types):

@@ -17,6 +17,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
 from tracking_core.config import with_values
+from tracking_tools.testing import confirmed_ids
 
 STAND_IN = Path(__file__).parent / 'tf2_stand_in'
 USE_TF = ('use_tf:=true', 'tracking_frame:=map', 'scan.assembly:=snapshot')
@@ -30,14 +31,15 @@ def with_tf2(monkeypatch):
     monkeypatch.setenv('PYTHONPATH', str(STAND_IN), prepend=':')
 
 
-def where(stamp, start):
-    """Return position [m] and heading [rad] of the sensor: a turning ship."""
-    return np.array([SPEED * (stamp - start), -300.0]), TURN * (stamp - start)
+def where(stamp, start, swing=0.0):
+    """Return position [m] and heading [rad] of the sensor: a turning ship that may swing [rad]."""
+    heading = TURN * (stamp - start) + swing * np.sin(2.0 * (stamp - start))
+    return np.array([SPEED * (stamp - start), -300.0]), heading
 
 
-def transform(stamp, start):
+def transform(stamp, start, swing=0.0):
     """Return where the sensor's frame is in the map."""
-    (x, y), heading = where(stamp, start)
+    (x, y), heading = where(stamp, start, swing)
     msg = TransformStamped(header=rclpy_types().header(stamp, 'map'), child_frame_id='radar')
     msg.transform.translation.x, msg.transform.translation.y = float(x), float(y)
     msg.transform.rotation.z, msg.transform.rotation.w = np.sin(heading / 2), np.cos(heading / 2)
@@ -73,6 +75,34 @@ def test_contact_at_rest_stands_still_in_the_map(with_tf2, start_node, probe):
     assert np.hypot(table['x'][row] - CONTACT[0], table['y'][row] - CONTACT[1]) < 5.0
     assert table['speed'][row] < 1.0
     assert probe.tables[-1].header.frame_id == 'map'
+
+
+def test_ship_that_swings_is_known_at_every_plot(with_tf2, start_node, probe):
+    """By 0.1 rad to either side within pi seconds, and a turn of the antenna lasts four."""
+    start_node(*USE_TF, 'tf_patience:=20.0', 'initiation.speed_max:=20.0')
+    transforms = probe.tell(TransformStamped, '/tf_stand_in')
+    probe.peer.wait_until_matched(transforms)
+    start, contacts = probe.stamp, CONTACT * [[1.0], [-1.0], [1.5], [-1.5]]
+    offsets = np.array([0.6, 1.4, 2.3, 3.1])  # s after the stamp
+    for stamp in (start - 1.0, start + 2.0):
+        transforms.publish(transform(stamp, start))
+    probe.meet()
+    for step in range(12):
+        probe.stamp = start + 4.0 * (step + 1)
+        for part in range(-8, 80):
+            transforms.publish(transform(probe.stamp + 0.05 * part, start, swing=0.1))
+        there = [where(stamp, start, swing=0.1) for stamp in probe.stamp + offsets]
+        line = contacts - np.array([place for place, _ in there])
+        azimuth = np.arctan2(line[:, 1], line[:, 0]) - [heading for _, heading in there]
+        columns = {'range': np.hypot(*line.T), 'azimuth': azimuth, 'time': offsets}
+        probe.send(columns, probe.stamp)
+        probe.spin_until(lambda: probe.is_answered(probe.stamp), 'tracks')
+    table = to_columns(probe.tables[-1], 9)
+    assert confirmed_ids(table) == {1, 2, 3, 4}
+    place = np.stack([table['x'], table['y']], axis=1)
+    off = np.hypot(*(place[:, None] - contacts).transpose(2, 0, 1))
+    assert off.min(axis=0).max() < 20.0
+    assert table['speed'].max() < 2.0
 
 
 def test_one_stamp_an_hour_ahead_costs_no_transform(with_tf2, start_node, probe):

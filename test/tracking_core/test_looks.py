@@ -9,8 +9,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 import pytest
+from scipy.spatial.transform import Rotation
 
-from tracking_core.batches import Coverage
+from tracking_core.batches import Coverage, NO_SWING
 from tracking_core.looks import inside_coverage, LARGEST_MARGIN, longest_since, margins, next_looks
 
 PERIOD = 4.0
@@ -42,6 +43,37 @@ def test_next_looks_meet_the_antenna(sense: float) -> None:
     assert np.median(np.abs(off)) < 2e-3
     assert (looks.time >= 96.5 + 0.5 * PERIOD - 1e-6).all()
     assert (looks.time < 100.0 + PERIOD).all()
+
+
+@pytest.mark.parametrize('sense', [1.0, -1.0])
+def test_next_looks_meet_an_antenna_that_moves_and_swings(sense: float) -> None:
+    """At the time found it points from where it then is; at 60 m/s that is 120 m at the ends."""
+    rng = np.random.default_rng(1)
+    position, velocity = rng.normal(0.0, 3e3, (300, 2)), rng.normal(0.0, 10.0, (300, 2))
+    swing = 0.1 * np.sin(np.linspace(0.0, 2.0 * np.pi, len(NO_SWING)))
+    coverage = replace(
+        turn(100.0, sense), sensor_position=(500.0, 200.0, 0.0), sensor_velocity=(60.0, 0.0, 0.0),
+        swing=tuple(swing.tolist()),
+    )  # fmt: skip
+    time = next_looks(position, velocity, np.full(300, 96.5), coverage).time
+    sensor = np.array([500.0, 200.0]) + np.outer(time - 102.0, [60.0, 0.0])
+    away = position + velocity * (time - 96.5)[:, None] - sensor
+    off = np.angle(np.exp(1j * (np.arctan2(away[:, 1], away[:, 0]) - coverage.azimuth_at(time))))
+    inside = (time > 100.0) & (np.hypot(*away.T) > 1e3)
+    assert inside.sum() > 150
+    assert np.abs(off[inside]).max() < 5e-3  # 0.08 from where it is at the end
+
+
+def test_margins_are_wider_for_what_is_high_where_the_antenna_leans() -> None:
+    """Oracle: how far a direction at 45 degrees turns about a deck that leans by 5 degrees."""
+    lean = np.radians(5.0)
+    upright = turn(0.0, 1.0)
+    place, size = np.array([[3e3, 0.0, 3e3], [0.0, 3e3, 0.0]]), np.full(2, 30.0)
+    usual = margins(place, size, upright)
+    wide = margins(place, size, replace(upright, tilt=lean))
+    about = Rotation.from_euler('x', lean).apply(place[0])
+    turned = np.arctan2(about[1], about[0]) / (2.0 * np.pi) * PERIOD
+    assert_allclose(wide - usual, [abs(turned), 0.0], rtol=0.01)
 
 
 @pytest.mark.parametrize('sense', [1.0, -1.0])

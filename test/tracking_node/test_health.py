@@ -5,11 +5,13 @@
 from dataclasses import replace
 import logging
 
+import numpy as np
 import pytest
 
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
+from tracking_core.platform import Platform
 from tracking_node.health import Health
 
 
@@ -70,3 +72,15 @@ def test_level_names_all_that_is_wrong_until_it_was_told(session):
     for orders in ('acquire', 'cancel'):
         session.counts[orders].received(1, 2)  # of several consoles
     assert health.level(session, 100.0) == ('OK', 'tracking')
+
+
+def test_level_says_that_own_ship_contradicts_itself(session):
+    """It moves, and its twist is of a ship at rest."""
+    health, still = Health(started=0.0, plots_at=99.0), np.zeros((1, 3))
+    for time in np.arange(0.0, 40.0, 0.5):
+        place, level = np.array([[5.0 * time, 0.0, 0.0]]), np.array([[0.0, 0.0, 0.0, 1.0]])
+        sample = Platform(
+            np.array([time]), place, level, still, np.zeros((1, 3, 3)), np.zeros(1)
+        )  # fmt: skip
+        session.whereabouts.take(sample, time)
+    assert health.level(session, 100.0) == ('WARN', 'own ship does not move as its twist says')

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Own ship's place: what leads on is believed, one leap is not, several that agree are."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -62,7 +64,7 @@ def test_accept_lets_a_place_be_as_far_off_as_its_covariance_says():
     rng = np.random.default_rng(1)
     for k in range(100):
         assert not guard.accept(sample(STEP * k, rng.normal(0.0, 100.0), sd=100.0))
-    with pytest.raises(BadMessage, match='limit 1080 m'):
+    with pytest.raises(BadMessage, match='limit 666 m'):
         guard.accept(sample(STEP * 100, 1500.0, sd=100.0))
 
 
@@ -88,11 +90,35 @@ def test_accept_never_believes_places_that_do_not_agree():
             sail(guard, 1, start=k, leap=1000.0 * (1 + k * k))
 
 
-def test_accept_knows_nothing_after_a_silence_or_without_a_limit():
-    """Then any place is believed, and tracks are stale anyway."""
+def test_accept_believes_any_place_that_own_ship_can_have_gone_to_in_a_silence():
+    """It may have turned about, or set sail; half an hour is enough for every place."""
+    for speed, silence, gone in ((10.0, 5.0, -50.0), (0.0, 20.0, 250.0), (0.0, 1800.0, 1e6)):
+        guard = LeapGuard(100.0, 2.0)
+        sail(guard, 4, speed)
+        assert not guard.accept(sample(1.5 + silence, 1.5 * speed + gone, speed))
+
+
+def test_accept_tells_a_leap_in_a_silence():
+    """Five seconds at 10 m/s are no kilometre: the third place there is believed, as a leap."""
     guard = LeapGuard(100.0, 2.0)
     sail(guard, 4)
-    assert not sail(guard, 1, start=10, leap=1000.0)
+    for k in (13, 14):
+        with pytest.raises(BadMessage, match=r'is 1000 m .*; limit [23]\d\d m'):
+            sail(guard, 1, start=k, leap=1000.0)
+    assert sail(guard, 1, start=15, leap=1000.0)
+
+
+def test_accept_tells_a_leap_of_a_ship_that_does_not_know_its_height():
+    """As of receivers, which tell 1e6 m^2 of z where they track in the plane."""
+    guard, unsure = LeapGuard(100.0, 2.0), np.diag([4.0, 4.0, 1e6])[None]
+    for k in range(4):
+        guard.accept(replace(sample(STEP * k, 5.0 * k, 10.0), position_covariance=unsure))
+    with pytest.raises(BadMessage, match='limit 111 m'):
+        guard.accept(replace(sample(2.0, 1020.0, 10.0), position_covariance=unsure))
+
+
+def test_accept_knows_nothing_without_a_limit():
+    """Then any place is believed."""
     free = LeapGuard(0.0, 2.0)
     sail(free, 4)
     assert not sail(free, 1, start=4, leap=1000.0)

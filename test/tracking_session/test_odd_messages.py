@@ -108,3 +108,16 @@ def test_one_covariance_of_own_ship_that_cannot_be_true_costs_no_track(place, va
     assert session.tracks.id.tolist() == [1, 2, 3]
     assert session.tracks.hits.tolist() == [12, 12, 12]
     assert np.isfinite(session.instrument.tracker.state.clutter.density)
+
+
+def test_heading_that_nobody_knows_costs_no_track_and_is_told_once(caplog):
+    """As of a receiver that tells 1e5 rad^2: the true directions of the plots need none."""
+    session = radar()
+    with caplog.at_level(logging.WARNING):
+        for number in range(12):
+            for part in range(8):
+                session.ownship(odometry(PERIOD * number + 0.5 * part, matrix((5, 5), 1e5)), 0.0)
+            session.plots(turn(PERIOD * number), 0.0)
+    assert session.tracks.id[session.tracks.confirmed].tolist() == [1, 2, 3]
+    assert len([r for r in caplog.records if 'that of no heading' in r.message]) == 1
+    assert session.counts['ownship'].doubtful == {'variance of the heading': 96}

@@ -13,6 +13,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.node_config import radar_node_config
 from radar_tracker.session import radar_session
 from tracking_core.config import with_values
+from tracking_core.platform import Platform
 
 TYPES = rosbags_types()
 PERIOD, SPEED, LEAP = 4.0, 10.0, 1000.0  # s, m/s of own ship, m
@@ -121,3 +122,50 @@ def test_recording_that_begins_anew_brings_its_own_path():
     off = np.hypot(table['x'][:, None] - places[:, 0], table['y'][:, None] - places[:, 1])
     assert off[confirmed].min(axis=0).max() < 60.0
     assert set(radar.counts['ownship'].refused) == {'stamp behind time'}
+
+
+class Tree:
+    """Transforms of the same ship, as a tree tells them every second, and 0.2 s before."""
+
+    leap = 0.0
+
+    def sensor(self, frame, into, times):
+        """Return the path from the first to the last time."""
+        time = np.append(times.min() - 0.2, np.arange(times.min(), times.max() + 1e-6, 1.0))
+        place = np.zeros((len(time), 3))
+        place[:, 0] = SPEED * time + self.leap
+        level = np.tile([0.0, 0.0, 0.0, 1.0], (len(time), 1))
+        velocity = np.tile([SPEED, 0.0, 0.0], (len(time), 1))
+        sure = np.zeros((len(time), 3, 3)), np.zeros(len(time))
+        return Platform(time, place, level, velocity, *sure)
+
+
+def test_leap_of_the_tree_begins_anew(caplog):
+    """As a map that is corrected: said once, and no old track stays where nobody is."""
+    config = replace(radar_node_config(), use_tf=True, tracking_frame='odom')
+    log, tree = logging.getLogger('leaps of the tree'), Tree()
+    radar = radar_session(RadarTrackerConfig(), config, TYPES, log)
+    radar.use_transforms(tree)
+    before = by_tree(radar, range(10))[-1]
+    assert len(before) == 3
+    tree.leap = LEAP
+    with caplog.at_level(logging.WARNING):
+        ids = by_tree(radar, range(10, 20))
+    assert len([r for r in caplog.records if 'the sensor is elsewhere' in r.message]) == 1
+    assert not set().union(*ids) & before
+    assert len(ids[-1]) == 3
+
+
+def by_tree(radar, numbers):
+    """Feed plots of a turn, of which the transforms tell three seconds; return confirmed ids."""
+    ids = []
+    for number in numbers:
+        seen = CONTACTS - [SPEED * (PERIOD * number + 1.5), 0.0]
+        columns = {
+            'range': np.hypot(*seen.T), 'azimuth': np.arctan2(seen[:, 1], seen[:, 0]),
+            'time': np.array([0.0, 1.0, 3.0]),
+        }  # fmt: skip
+        table = radar.plots(from_columns(columns, PERIOD * number, 'radar', TYPES), 0.0)
+        rows = to_columns(table, 100)
+        ids.append(set(rows['id'][rows['status'] == 1].tolist()))
+    return ids

@@ -47,24 +47,25 @@ def ais(**changes):
     return pyais.encode_dict(values, talker_id='AI', sentence_type='VDM')[0].encode() + b'\r\n'
 
 
-@pytest.mark.parametrize(
-    ('latitude', 'longitude', 'distance', 'azimuth'),
-    [
-        (55.5, 10.2, DEGREE, 90.0),
-        (54.5, 11.2, DEGREE * np.cos(np.radians(54.5)), 0.0),
-        (54.4, 10.2, 0.1 * DEGREE, -90.0),
-    ],
-)
-def test_places_are_told_on_a_plane_about_the_origin(latitude, longitude, distance, azimuth):
-    """A degree north, a degree east, a tenth of one south."""
-    r, angle = polar_of(latitude, longitude, ORIGIN)
-    assert r == pytest.approx(distance, rel=3e-3)  # the ellipsoid is within 0.3 % of a sphere
-    assert np.degrees(angle) == pytest.approx(azimuth, abs=1e-9)
+def on_sphere(latitude, longitude, origin):
+    """Return range [m] and azimuth [rad] by the formulas of navigation."""
+    (up, turn), (up0, turn0) = np.radians([latitude, longitude]), np.radians(origin)
+    north = np.cos(up0) * np.sin(up) - np.sin(up0) * np.cos(up) * np.cos(turn - turn0)
+    east = np.cos(up) * np.sin(turn - turn0)
+    along = np.sin(up0) * np.sin(up) + np.cos(up0) * np.cos(up) * np.cos(turn - turn0)
+    return DEGREE * np.degrees(np.arctan2(np.hypot(east, north), along)), np.arctan2(north, east)
 
 
-def test_plane_goes_on_over_the_date_line():
-    """179.9 east and 179.9 west are near each other."""
-    assert polar_of(0.0, -179.9, (0.0, 179.9))[0] == pytest.approx(0.2 * 111_320.0, rel=1e-3)
+@pytest.mark.parametrize('origin', [ORIGIN, (75.0, 179.9), (-75.0, -179.9), (-0.1, 6.0)])
+@pytest.mark.parametrize('step', [(0.3, 0.0), (0.2, 0.9), (-0.25, -0.5), (0.0, 1.0)])
+def test_places_are_where_a_radar_at_the_origin_sees_them(origin, step):
+    """Oracle: the sphere, which the ellipsoid is near, across the date line, and the way back."""
+    latitude, longitude = origin[0] + step[0], (origin[1] + step[1] + 180.0) % 360.0 - 180.0
+    distance, azimuth = polar_of(latitude, longitude, origin)
+    expected = on_sphere(latitude, longitude, origin)
+    assert distance == pytest.approx(expected[0], rel=1e-2)  # radii of curvature
+    assert azimuth == pytest.approx(expected[1], abs=3.5e-3)
+    assert polar_of(*origin, (latitude, longitude))[0] == pytest.approx(distance, rel=1e-9)
 
 
 def test_ttm_is_a_plot_with_our_units_and_time():

@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tracking_core.batches import Floats
+
 NAUTICAL_MILE = 1852.0  # m
 EQUATOR, FLATTENING = 6_378_137.0, 1.0 / 298.257223563  # of WGS 84; radius [m]
 
@@ -29,7 +31,10 @@ def polar_of(
     latitude: float, longitude: float, origin: tuple[float, float]
 ) -> tuple[float, float]:
     """
-    Return range [m] and azimuth [rad] of a place seen from the origin, on a plane about it.
+    Return range [m] and azimuth [rad] of a place at sea level, as a radar at the origin has them.
+
+    The range is straight, at 80 km half a metre less than over the ground; the azimuth counts from
+    the east of the origin, wherever meridians meet.
 
     Parameters
     ----------
@@ -39,11 +44,17 @@ def polar_of(
         The same of the origin.
 
     """
-    sine = np.sin(np.radians(origin[0]))
-    squashed = 1.0 - FLATTENING * (2.0 - FLATTENING) * sine**2
-    across = EQUATOR / np.sqrt(squashed)  # radii of curvature [m]
-    along = across * (1.0 - FLATTENING) ** 2 / squashed
-    turn = (longitude - origin[1] + 180.0) % 360.0 - 180.0
-    east = across * np.cos(np.radians(origin[0])) * np.radians(turn)
-    north = along * np.radians(latitude - origin[0])
-    return float(np.hypot(east, north)), float(np.arctan2(north, east))
+    line = _from_centre(latitude, longitude) - _from_centre(*origin)
+    cos, sin = np.cos(np.radians(origin)), np.sin(np.radians(origin))
+    outward = cos[1] * line[0] + sin[1] * line[1]  # from the axis of the earth
+    east = cos[1] * line[1] - sin[1] * line[0]
+    north = cos[0] * line[2] - sin[0] * outward
+    return float(np.linalg.norm(line)), float(np.arctan2(north, east))
+
+
+def _from_centre(latitude: float, longitude: float) -> Floats:
+    """Return a place on the ellipsoid (3,) from the centre of the earth [m]."""
+    cos, sin = np.cos(np.radians([latitude, longitude])), np.sin(np.radians([latitude, longitude]))
+    flat = (1.0 - FLATTENING) ** 2
+    curved = EQUATOR / np.sqrt(cos[0] ** 2 + flat * sin[0] ** 2)  # radius, from east to west
+    return np.asarray(curved * np.array([cos[0] * cos[1], cos[0] * sin[1], flat * sin[0]]))
