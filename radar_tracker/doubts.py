@@ -6,11 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from radar_tracker.tracker import RadarTracker
 from tracking_session.doubts import Doubt, noise_doubts, Told
 
 _ENOUGH = 200  # plots, of which the farthest tells how far the radar sees
-_COARSE = 0.05  # of that distance; there is no radar whose range noise is so large
 _ADVICE = 'that is used; set it right, unless most contacts turn all the time'
 
 
@@ -28,23 +29,26 @@ def doubts(tracker: RadarTracker, plots: int, is_own: bool) -> Iterator[Doubt]:
         Whether plots tell their own noise.
 
     """
-    c, is_polar = tracker.config.sensor, tracker.radar.is_polar
+    c, radar, ratio = tracker.config.sensor, tracker.radar, tracker.state.scatter.ratio
     told = [
         Told('range', 'sensor.range_sd', c.range_sd, 'm'),
         Told('azimuth', 'sensor.azimuth_sd', c.azimuth_sd, 'rad'),
         Told('elevation', 'sensor.elevation_sd', c.elevation_sd, 'rad'),
     ]
-    if not is_polar:
+    if not radar.is_polar:
         axes = ('range', 'azimuth', 'elevation')
         told = [Told(axis, 'sensor.position_sd', c.position_sd, 'm') for axis in axes]
     if is_own:
         told = [t._replace(name=t.name.replace('sensor.', ''), sd=None) for t in told]
-    yield from noise_doubts('plots', told, tracker.state.scatter.ratio, _ADVICE)
     name, sd = told[0].name, told[0].sd
-    if sd is not None and plots >= _ENOUGH and sd > _COARSE * tracker.farthest:
-        yield Doubt(
-            f'{name} is too large',
-            f'{name} = {sd:.3g} m is that of a radar which sees far, but the farthest of {plots} '
-            f'plots is {tracker.farthest:.0f} m away: contacts can hardly be told from false '
-            'plots. Begin with a preset for short ranges',
-        )
+    if sd is not None and sd > radar.coarsest:
+        ratio = np.where([t.name == name for t in told[: len(ratio)]], np.nan, ratio)
+        if plots >= _ENOUGH:
+            yield Doubt(
+                f'{name} is too large',
+                f'{name} = {sd:.3g} m is that of a radar which sees far, but the farthest of '
+                f'{plots} plots is {tracker.farthest:.0f} m away: '
+                f'{radar.raised[0] * radar.coarsest:.2g} m is used. Begin with a preset for '
+                'short ranges',
+            )
+    yield from noise_doubts('plots', told, ratio, _ADVICE)

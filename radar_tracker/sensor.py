@@ -33,6 +33,7 @@ class Radar:
     is_polar: bool
     doubt: PlatformDoubt | None = None  # of the platform, in the message at hand
     raised: tuple[float, float, float] = (1.0, 1.0, 1.0)  # sds of range, azimuth, ... over told
+    coarsest: float = np.inf  # no parameter can tell more noise in range or position [m]
 
     @staticmethod
     def for_plots(config: SensorConfig, plots: Plots) -> Radar:
@@ -51,6 +52,16 @@ class Radar:
     def detection_probability(self) -> float:
         """P_D."""
         return self.config.detection_probability
+
+    @property
+    def range_sd(self) -> float:
+        """Range noise of plots that do not tell theirs [m]."""
+        return min(self.config.range_sd, self.coarsest)
+
+    @property
+    def position_sd(self) -> float:
+        """Noise of Cartesian plots that do not tell theirs [m]."""
+        return min(self.config.position_sd, self.coarsest)
 
     @property
     def range_rate_density(self) -> float:
@@ -78,9 +89,9 @@ class Radar:
         """Return what the radar itself does not know (T, d, d) at offsets (T, d) from it [m^2]."""
         d, c = self.dimensions, self.config
         if not self.is_polar:
-            R = (self.raised[0] * c.position_sd) ** 2 * np.eye(d)
+            R = (self.raised[0] * self.position_sd) ** 2 * np.eye(d)
             return np.broadcast_to(R, (len(offset), d, d))
-        usual = np.array(self.raised) * [c.range_sd, c.azimuth_sd, c.elevation_sd]
+        usual = np.array(self.raised) * [self.range_sd, c.azimuth_sd, c.elevation_sd]
         sd = np.broadcast_to(usual[:d], offset.shape)
         return to_cartesian(to_polar(offset), sd)[1]
 
@@ -168,12 +179,13 @@ class Radar:
         """Return position (M, 3) and covariance (M, 3, 3) in sensor axes."""
         c, M, d = self.config, len(plots), self.dimensions
         if not self.is_polar:
-            told, usual = plots.position_covariance, c.position_sd**2 * np.eye(3)
+            told, usual = plots.position_covariance, self.position_sd**2 * np.eye(3)
             covariance = self.raised[0] ** 2 * _or_like(told, usual)
             return _or_like(plots.position, np.zeros(3)), covariance
         polar = np.stack([plots.range, plots.azimuth, np.nan_to_num(plots.elevation)], axis=1)
         sd = np.empty((M, 3))
-        sd[:, 0], sd[:, 1] = _or(plots.range_sd, c.range_sd), _or(plots.azimuth_sd, c.azimuth_sd)
+        sd[:, 0] = _or(plots.range_sd, self.range_sd)
+        sd[:, 1] = _or(plots.azimuth_sd, c.azimuth_sd)
         sd[:, 2] = _or(plots.elevation_sd, c.elevation_sd)
         sd *= self.raised
         position, covariance = np.zeros((M, 3), order='F'), np.zeros((M, 3, 3), order='F')

@@ -31,11 +31,16 @@ class MountConfig:
 class SensorConfig:
     """What the radar measures, how well, and where."""
 
-    range_sd: float = parameter(50.0, unit='m', doc='range noise', low=1e-3)
+    range_sd: float = parameter(
+        50.0, unit='m', low=1e-3,
+        doc='range noise; 0.03 times the distance of the farthest plot is used at most',
+    )  # fmt: skip
     azimuth_sd: float = parameter(0.00175, unit='rad', doc='azimuth noise', low=1e-6, high=0.5)
     elevation_sd: float = parameter(0.0026, unit='rad', doc='elevation noise', low=1e-6, high=0.5)
     range_rate_sd: float = parameter(2.0, unit='m/s', doc='range rate noise', low=1e-3)
-    position_sd: float = parameter(30.0, unit='m', doc='noise of Cartesian plots', low=1e-3)
+    position_sd: float = parameter(
+        30.0, unit='m', low=1e-3, doc='noise of Cartesian plots; the same holds for it'
+    )
     detection_probability: float = parameter(
         0.9, unit='1', low=0.01, high=0.999, live=True,
         doc='chance that a look at a contact gives a plot; '

@@ -16,6 +16,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import azimuth_of, farthest
 from radar_tracker.heights import flat_after, is_other
 from radar_tracker.mounting import coverage_of, PlatformDoubt
+from radar_tracker.plausible import coarsest, fastest
 from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
 from radar_tracker.sweep import Beam
@@ -192,8 +193,14 @@ class RadarTracker:
         self.farthest = max(self.farthest, distance)
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:
-        """Open the gates for what own ship does not know of itself, and plots do not tell."""
-        raised = self.state.scatter.raised(is_round=not self.radar.is_polar)
-        if doubt is not self.radar.doubt or raised != self.radar.raised:
-            self.radar = replace(self.radar, doubt=doubt, raised=raised)
+        """Heed what own ship does not know of itself, and where plots say more than parameters."""
+        state, radar = self.state, self.radar
+        raised = state.scatter.raised(is_round=not radar.is_polar)
+        limit = coarsest(self.farthest)
+        if doubt is not radar.doubt or (raised, limit) != (radar.raised, radar.coarsest):
+            self.radar = replace(radar, doubt=doubt, raised=raised, coarsest=limit)
             self.core.setup = self.core.setup.with_sensor(self.radar)
+        speed = fastest(self.farthest, state.steps, self.coverage)
+        speed = min(speed, self.config.initiation.speed_max)
+        if speed != self.core.setup.initiation.speed_max:
+            self.core.setup = self.core.setup.with_speed_max(speed)

@@ -75,3 +75,10 @@ class Setup:
         """Return the same for another state of the sensor: filters keep what they worked out."""
         rule = self.resolution and replace(self.resolution, sensor=sensor)
         return replace(self, sensor=sensor, resolution=rule)
+
+    def with_speed_max(self, speed: float) -> Setup:
+        """Return the same with another speed of the fastest contact [m/s]."""
+        return replace(
+            self, initiation=replace(self.initiation, speed_max=speed),
+            extent=replace(self.extent, speed_max=speed),
+        )  # fmt: skip
