@@ -6,14 +6,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from radar_tracker.config import RadarTrackerConfig
+from radar_tracker.antenna import Antenna
+from radar_tracker.config import RadarTrackerConfig, ScanConfig
 from radar_tracker.planes import build_planes
 from radar_tracker.sensor import Radar
 from tracking_core.assembly import assemble
 from tracking_core.composition import Setup
 from tracking_core.several_plots import Extent
 
-__all__ = ['build_planes', 'build_setup']
+__all__ = ['build_antenna', 'build_planes', 'build_setup']
 
 
 def build_setup(config: RadarTrackerConfig, radar: Radar) -> Setup:
@@ -24,3 +25,16 @@ def build_setup(config: RadarTrackerConfig, radar: Radar) -> Setup:
     setup = assemble(config, radar, planes, config.initiation, resolution)
     extent = Extent(size, config.initiation.speed_max)
     return replace(setup, extent=extent)
+
+
+def build_antenna(scan: ScanConfig) -> Antenna:
+    """Return an antenna of which nothing is known beside these parameters."""
+    collects = scan.assembly == 'rotation'
+    return Antenna(
+        scan.period,
+        full_turns=scan.assembly != 'sector',
+        # A collected turn has the stamp of its first sector, and begins about there.
+        time_reference='start' if collects else scan.time_reference,
+        stares=scan.assembly == 'snapshot',
+        collects=collects,
+    )

@@ -15,7 +15,7 @@ from radar_tracker.mounting import PlatformDoubt
 from radar_tracker.plot_space import of_plots, space_per_metre
 from radar_tracker.resolving import limits, reach
 from radar_tracker.sensor_config import SensorConfig
-from radar_tracker.told import excess, NOTHING, tell_noise
+from radar_tracker.told import excess, NOTHING, sd_or, tell_noise
 from tracking_core.batches import Coverage, Floats, Plots, Scan
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform_pose import PlatformPose
@@ -160,7 +160,7 @@ class Radar:
             position=position,
             covariance=covariance,
             range_rate=plots.range_rate,
-            range_rate_variance=_or(plots.range_rate_sd, self.config.range_rate_sd) ** 2,
+            range_rate_variance=sd_or(plots.range_rate_sd, self.config.range_rate_sd) ** 2,
             snr=plots.snr,
             clutter_volume=of_plots(
                 local[:, :d], unknown, self.is_polar, self.config.elevation_span
@@ -184,19 +184,14 @@ class Radar:
             return _or_like(plots.position, np.zeros(3)), covariance
         polar = np.stack([plots.range, plots.azimuth, np.nan_to_num(plots.elevation)], axis=1)
         sd = np.empty((M, 3))
-        sd[:, 0] = _or(plots.range_sd, self.range_sd)
-        sd[:, 1] = _or(plots.azimuth_sd, c.azimuth_sd)
-        sd[:, 2] = _or(plots.elevation_sd, c.elevation_sd)
+        sd[:, 0] = sd_or(plots.range_sd, self.range_sd)
+        sd[:, 1] = sd_or(plots.azimuth_sd, c.azimuth_sd)
+        sd[:, 2] = sd_or(plots.elevation_sd, c.elevation_sd)
         sd *= self.raised
         position, covariance = np.zeros((M, 3), order='F'), np.zeros((M, 3, 3), order='F')
         covariance[:, 2, 2] = 1.0
         position[:, :d], covariance[:, :d, :d] = to_cartesian(polar[:, :d], sd[:, :d])
         return position, covariance
-
-
-def _or(values: Floats, default: float) -> Floats:
-    """Return the values, the default where the sensor tells none that can be true."""
-    return np.where(np.isfinite(values) & (values > 0.0), values, default)
 
 
 def _or_like(values: Floats, others: Floats) -> Floats:

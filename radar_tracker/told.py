@@ -1,6 +1,6 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""How much less sure are plots that tell their own noise than the parameters say?"""
+"""What noise do plots tell, and how much less sure are they than the parameters say?"""
 
 from __future__ import annotations
 
@@ -17,6 +17,11 @@ def tell_noise(plots: Plots, is_polar: bool) -> bool:
     polar = (plots.range_sd, plots.azimuth_sd, plots.elevation_sd)
     told = polar if is_polar else (plots.position_covariance,)
     return any(np.isfinite(values).any() for values in told)
+
+
+def sd_or(sd: Floats, usual: float) -> Floats:
+    """Return the sds (M,) that plots tell, the usual one where they tell none that can be true."""
+    return np.where(np.isfinite(sd) & (sd > 0.0), sd, usual)
 
 
 def excess(covariance: Floats, expected: Floats) -> tuple[float, float, float]:

@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from radar_tracker.antenna import Antenna
-from radar_tracker.build import build_setup
+from radar_tracker.build import build_antenna, build_setup
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import azimuth_of, farthest
 from radar_tracker.heights import flat_after, is_other
@@ -41,14 +40,7 @@ class RadarTracker:
 
     def _forget(self, next_id: int) -> None:
         scan, most = self.config.scan, self.config.max_plots
-        self.antenna = Antenna(
-            scan.period,
-            full_turns=scan.assembly != 'sector',
-            # A collected turn has the stamp of its first sector, and begins about there.
-            time_reference='start' if scan.assembly == 'rotation' else scan.time_reference,
-            stares=scan.assembly == 'snapshot',
-            collects=scan.assembly == 'rotation',
-        )
+        self.antenna = build_antenna(scan)
         self.sectors = SectorClock(scan)
         self.turns = Turns(scan.period, most) if scan.assembly == 'rotation' else None
         self.radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)

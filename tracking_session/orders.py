@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage
-from msg_adapters.message_types import frame_of
+from msg_adapters.message_types import frame_of, seconds
 from msg_adapters.points import to_position
 from tracking_session.session import Session
 
@@ -23,7 +23,8 @@ def acquire(session: Session, msg: Any) -> None:
         position = to_position(msg, tracker.sensor_position, instrument.reach)
         if len(session.tracks) >= (most := tracker.config.max_tracks):
             raise BadMessage('no room', f'there are {most} tracks already (max_tracks)')
-        track_id = session.start_track(position)
+        track_id = tracker.start_track(position, seconds(session.stamp))
+        session.settle()
         session.log.info(f'track {track_id} started at {position} m')
     except BadMessage as error:
         session.ledger.refuse('acquire', error.reason, error)
@@ -31,7 +32,8 @@ def acquire(session: Session, msg: Any) -> None:
 
 def cancel(session: Session, msg: Any) -> None:
     """Drop one track, as a UInt32 says."""
-    if session.drop_track(msg.data):
+    if session.instrument.tracker.drop_track(msg.data):
+        session.settle()
         session.log.info(f'track {msg.data} dropped')
     else:
         session.ledger.warn('cancel', f'cancel: there is no track {msg.data}')

@@ -14,10 +14,10 @@ from functools import partial
 from typing import Any
 
 from msg_adapters.bad_message import BadMessage
-from msg_adapters.message_types import frame_name, frame_of, MessageTypes, seconds
+from msg_adapters.message_types import frame_name, frame_of, MessageTypes
 from msg_adapters.ownship import to_platform
 from msg_adapters.reading import Reading
-from tracking_core.batches import Floats, Tracks
+from tracking_core.batches import Tracks
 from tracking_core.platform import StalePlatform
 from tracking_session.frames import TrackingFrame
 from tracking_session.history import History
@@ -190,14 +190,6 @@ class Session:
         except BadMessage as error:
             self.ledger.refuse('ownship', error.reason, error)
 
-    def start_track(self, position: Floats) -> int:
-        """Start a confirmed track that late plots do not undo; return its id."""
-        track_id = self.instrument.tracker.start_track(position, seconds(self.stamp))
+    def settle(self) -> None:
+        """Let late plots undo nothing of what there is now: a user ordered it."""
         self._history.close()
-        return track_id
-
-    def drop_track(self, track_id: int) -> bool:
-        """Delete one track, which late plots do not undo; return whether it was there."""
-        if was_there := self.instrument.tracker.drop_track(track_id):
-            self._history.close()
-        return was_there
