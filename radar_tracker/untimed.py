@@ -36,9 +36,11 @@ class UntimedPlots:
         step, self._last = plots.stamp - self._last, plots.stamp
         if platform is None or len(plots) < 2 or not 0.0 < step < _LONGEST:
             return
+        if (plots.time != plots.stamp).any():
+            self._count = 0
+            return
         self._turned = step * abs(float(platform.at(np.array([plots.stamp])).turn_rate[0, 2]))
-        is_untimed = bool((plots.time == plots.stamp).all())
-        self._count = self._count + 1 if is_untimed and self._turned > self._least else 0
+        self._count = self._count + 1 if self._turned > self._least else 0
 
     def doubts(self) -> Iterator[Doubt]:
         """Yield what is wrong."""
