@@ -25,6 +25,7 @@ from radar_tracker.mounting import in_sensor_axes
 from radar_tracker.sensor_config import MountConfig
 from radar_tracker.told import tell_noise
 from radar_tracker.tracker import RadarTracker
+from radar_tracker.untimed import UntimedPlots
 from tracking_core.batches import Floats, Plots, Tracks
 from tracking_core.platform import Platform, pose_at
 from tracking_core.rows import take
@@ -67,6 +68,7 @@ class RadarInstrument:
         self._overrides, self._types = vars(node_config.fields), types
         self._trails = Trails.empty(node_config.markers.history)
         self._plots, self._tells_noise = 0, False  # how many came; whether they tell their own
+        self._untimed = UntimedPlots(config.sensor.azimuth_sd)
 
     @property
     def is_mounted(self) -> bool:
@@ -106,8 +108,10 @@ class RadarInstrument:
         """Follow all contacts through the plots of one message."""
         sensor = self.tracker.config.sensor
 
+        is_true = frame.tells_true(sensor.azimuth_reference)
+
         def relative(plots: Plots) -> Plots:
-            if not frame.tells_true(sensor.azimuth_reference):
+            if not is_true:
                 return plots
             return in_sensor_axes(plots, pose_at(platform, plots.time), sensor.mount)
 
@@ -115,6 +119,9 @@ class RadarInstrument:
         if len(plots):
             self._tells_noise = tell_noise(plots, self.tracker.radar.is_polar)
         local, sectors = relative(plots), self.tracker.sectors
+        scan = self.tracker.config.scan
+        if scan.assembly == 'message' and not scan.period and not is_true:
+            self._untimed.note(plots, platform)
         times = sectors.times(local)
         if times is not local.time:
             local = relative(replace(plots, time=times))
@@ -122,7 +129,8 @@ class RadarInstrument:
 
     def doubts(self) -> Iterator[Doubt]:
         """Yield what the plots say against the parameters."""
-        return doubts(self.tracker, self._plots, self._tells_noise)
+        yield from doubts(self.tracker, self._plots, self._tells_noise)
+        yield from self._untimed.doubts()
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table."""

@@ -131,10 +131,11 @@ def normal(line):
     return re.sub(r'-?\d+(\.\d+)?', '0', line.strip())
 
 
-def own_ship(stamp, frame='map', x=0.0, yaw_variance=0.0):
-    """Return odometry of a ship at rest."""
+def own_ship(stamp, frame='map', x=0.0, yaw=0.0, yaw_variance=0.0):
+    """Return odometry of a ship that says that it is at rest."""
     msg = Odometry(header=TYPES.header(stamp, frame))
-    msg.pose.pose.orientation.w, msg.pose.pose.position.x = 1.0, x
+    msg.pose.pose.position.x = x
+    msg.pose.pose.orientation.z, msg.pose.pose.orientation.w = np.sin(yaw / 2), np.cos(yaw / 2)
     msg.pose.covariance[35] = yaw_variance
     return msg
 
@@ -187,6 +188,8 @@ def lines_of_sessions():
     use(odometry=leap)
     use(odometry=[own_ship(90.0, yaw_variance=99999.0)])
     use(odometry=[own_ship(90.0 + step, x=8.0 * step) for step in range(40)])
+    turns = [message(100.0 + step, range=[1e3, 2e3], azimuth=[0.1, 2.0]) for step in range(9)]
+    use(*turns, odometry=[own_ship(90.0 + step, yaw=0.02 * step) for step in range(20)])
     return said
 
 
