@@ -129,13 +129,13 @@ def test_live_parameter_is_described_checked_and_followed(start_node, probe):
     """A live parameter takes an int, refuses nonsense; a structural one cannot be set."""
     start_node()
     probe.meet()
-    request = DescribeParameters.Request(names=['sensor.range_sd', 'association'])
+    request = DescribeParameters.Request(names=['sensor.azimuth_sd', 'association'])
     answer = probe.call(
         DescribeParameters, 'radar_tracker/describe_parameters', request, again=1.0
     )
     number, choice = answer.descriptors
-    assert number.description == 'range noise [m]'
-    assert number.floating_point_range[0].from_value == pytest.approx(1e-3)
+    assert number.description == 'azimuth noise [rad]'
+    assert number.floating_point_range[0].from_value == pytest.approx(1e-6)
     assert 'jpda' in choice.additional_constraints
 
     def set_to(name, value):
