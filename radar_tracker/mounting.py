@@ -119,6 +119,7 @@ def coverage_of(sweep: Sweep, ends: PlatformPose, sensor: SensorConfig) -> Cover
         start_azimuth=sweep.start_azimuth + float(heading[0]),
         sweep=sweep.angle + yawed if sweep.angle else 0.0,
         gaps=sweep.gaps,
+        unevenness=sweep.unevenness,
         sensor_position=(float(x), float(y), float(z)),
         range_min=sensor.range_min,
         range_max=sensor.range_max,

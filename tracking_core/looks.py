@@ -128,7 +128,7 @@ def longest_since(time: Floats, latest: float, coverage: Coverage) -> Floats:
 
 def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
     """
-    Return how long the antenna needs from a track's middle to the edge of its gate (T,) [s].
+    Return how long the antenna needs at most from a track's middle to its gate's edge (T,) [s].
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
         return np.zeros(len(position))
     x, y = coverage.sensor_position[:2]
     angle = np.arctan2(half_size, np.hypot(position[:, 0] - x, position[:, 1] - y))
-    return np.asarray(np.minimum(angle, LARGEST_MARGIN * TURN) / rate)
+    return np.asarray(np.minimum(angle + coverage.unevenness, LARGEST_MARGIN * TURN) / rate)
 
 
 def inside_coverage(position: Floats, coverage: Coverage) -> Bools:
