@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from radar_tracker.gaps import is_missing, STAMPS
-from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, tells_of_now, worth_looking
+from radar_tracker.rotation import find_rate, IN_STEP, refine_rate, unevenness, worth_keeping
 from radar_tracker.sweep import Beam, Sweep
 from tracking_core.batches import Floats, NO_GAPS, Plots
 from tracking_core.linalg import TURN
@@ -49,6 +49,7 @@ class Antenna:
         self._time, self._azimuth = np.zeros(0), np.zeros(0)
         self._stamps, self._end = np.zeros(0), -np.inf  # of the last messages [s]
         self._gaps = NO_GAPS
+        self._uneven = 0.0  # by how much it may point elsewhere [rad]
         self._tries = 0
         self._stares = stares  # told so
         self._at_once = 0  # messages with plots of one moment all around, since plots told times
@@ -141,7 +142,8 @@ class Antenna:
         elif start > last:
             self._gaps = (*self._gaps[1:], (last, start))
         end = self._end = max(end, start + _LEAST * period)
-        return Sweep(start, end, self._phase_at(start), self._rate * (end - start), self._gaps)
+        phase, angle = self._phase_at(start), self._rate * (end - start)
+        return Sweep(start, end, phase, angle, self._gaps, self._uneven)
 
     def _phase_at(self, time: float) -> float:
         """Return where the antenna pointed at this time [rad]."""
@@ -157,9 +159,8 @@ class Antenna:
             time, azimuth = time[evenly], azimuth[evenly]
         self._time = np.concatenate([self._time, time])[-_SAMPLES:]
         self._azimuth = np.concatenate([self._azimuth, azimuth])[-_SAMPLES:]
-        time, turn = self._time, self.turn_time
-        kept = tells_of_now(time, turn) if turn else worth_looking(time, self._period)
-        self._time, self._azimuth = time[kept], self._azimuth[kept]
+        kept = worth_keeping(self._time, self.turn_time, self._period)
+        self._time, self._azimuth = self._time[kept], self._azimuth[kept]
         span = np.ptp(self._time) if len(self._time) else 0.0
         if len(self._time) < _FEWEST or span <= 0.0:
             return
@@ -192,5 +193,6 @@ class Antenna:
     def _refine(self) -> None:
         """Fit the rate to the remembered plots; forget it when they are not on the beam."""
         self._rate = refine_rate(self._time, self._azimuth, self._rate)
+        self._uneven = unevenness(self._time, self._azimuth, self._rate)
         if not self._rate:
             self._time, self._azimuth = self._time[-50:], self._azimuth[-50:]

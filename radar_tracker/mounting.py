@@ -134,6 +134,7 @@ def coverage_of(sweep: Sweep, poses: PlatformPose, sensor: SensorConfig) -> Cove
         start_azimuth=sweep.start_azimuth + float(turned[0]),
         sweep=sweep.angle + float(turned[-1] - turned[0]) if sweep.angle else 0.0,
         gaps=sweep.gaps,
+        unevenness=sweep.unevenness,
         sensor_position=(x, y, z),
         sensor_velocity=tuple(velocity.tolist()),
         range_min=sensor.range_min,

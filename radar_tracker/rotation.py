@@ -19,6 +19,7 @@ _STILL = 1e-9  # part of the rate by which it may change and still stand
 _AT_ONCE = 2**16  # plots times candidates whose arrays stay near the processor
 _TURNS = 10.0  # of the slowest antenna; to look for a rate in more is too costly
 _FOLLOWED, _ENOUGH = 3.0, 30  # turns of a known rotation, or so many plots, tell how it is now
+_MOST, _BEYOND = 0.9, 1.3  # of the plots, as wrong times tell nothing; so far off are the others
 _NEIGHBOURS = 12  # candidates to either side of one that are no different rate
 
 
@@ -48,22 +49,27 @@ def find_rate(time: Floats, azimuth: Floats, period: float, interval: float) -> 
     return float(candidates[best]) if fit[best] > least else 0.0
 
 
-def worth_looking(time: Floats, period: float) -> Bools:
-    """Return which plots at these times (M,) [s] are of late enough turns to find a rate by."""
-    age = time.max(initial=-np.inf) - time
-    return np.asarray(age < _TURNS * max(period, PERIODS[1]))
-
-
-def tells_of_now(time: Floats, turn_time: float) -> Bools:
+def worth_keeping(time: Floats, turn_time: float, period: float) -> Bools:
     """
-    Return which plots at these times (M,) [s] tell how an antenna turns now.
+    Return which plots at these times (M,) [s] tell of the rotation.
 
-    Motors and wind let it be faster and slower: with a line through a minute of plots it is soon
-    degrees from where it should be.
+    Parameters
+    ----------
+    time : (M,) array
+        [s].
+    turn_time : float
+        Of one turn, as far as it is known by now, else 0 [s]. Motors and wind let an antenna be
+        faster and slower: a line through a minute of plots is soon degrees from where it should
+        be, so only the last turns tell how it turns now.
+    period : float
+        Of a turn, if the parameters tell it, else 0 [s].
+
     """
+    latest = float(time.max(initial=-np.inf))
+    if not turn_time:
+        return np.asarray(latest - time < _TURNS * max(period, PERIODS[1]))
     newest = np.sort(time)[::-1][:_ENOUGH]
-    since = newest.min(initial=time.max(initial=-np.inf) - _FOLLOWED * turn_time)
-    return np.asarray(time >= since)
+    return np.asarray(time >= newest.min(initial=latest - _FOLLOWED * turn_time))
 
 
 def refine_rate(time: Floats, azimuth: Floats, rate: float) -> float:
@@ -78,6 +84,14 @@ def refine_rate(time: Floats, azimuth: Floats, rate: float) -> float:
         if abs(step) < _STILL * abs(rate):
             break
     return 0.0 if np.hypot(sine, cosine) < IN_STEP * len(t) else rate
+
+
+def unevenness(time: Floats, azimuth: Floats, rate: float) -> float:
+    """Return how far nearly all plots (M > 0,) are at most from where the antenna points [rad]."""
+    beam = azimuth - rate * (time - time.mean())
+    off = np.abs(wrap_angle(beam - np.arctan2(np.sin(beam).sum(), np.cos(beam).sum())))
+    last = int(_MOST * (len(off) - 1))
+    return _BEYOND * float(np.partition(off, last)[last])
 
 
 def in_step(time: Floats, azimuth: Floats, rates: Floats) -> Floats:

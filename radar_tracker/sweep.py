@@ -22,6 +22,7 @@ class Sweep:
     start_azimuth: float = 0.0  # sensor axes [rad]
     angle: float = 0.0  # signed [rad]; 0: a look everywhere at once
     gaps: Gaps = NO_GAPS  # before it
+    unevenness: float = 0.0  # by how much the antenna may point elsewhere [rad]
 
     @property
     def is_long(self) -> bool:

@@ -110,6 +110,7 @@ class Coverage:
     start_azimuth: float = 0.0  # tracking axes [rad]
     sweep: float = 0.0  # signed, anticlockwise positive [rad]
     gaps: Gaps = NO_GAPS  # during which the sensor was not followed
+    unevenness: float = 0.0  # by how much the antenna may point elsewhere [rad]
     sensor_position: tuple[float, float, float] = (0.0, 0.0, 0.0)  # in the middle of it [m]
     sensor_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)  # [m/s]
     range_min: float = 0.0  # [m]

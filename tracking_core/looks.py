@@ -131,7 +131,7 @@ def longest_since(time: Floats, latest: float, coverage: Coverage) -> Floats:
 
 def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
     """
-    Return how long the antenna needs from a track's middle to the edge of its gate (T,) [s].
+    Return how long the antenna needs at most from a track's middle to its gate's edge (T,) [s].
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def margins(position: Floats, half_size: Floats, coverage: Coverage) -> Floats:
         return np.zeros(len(position))
     offset = position - np.array(coverage.sensor_position[: position.shape[1]])
     distance = np.hypot(offset[:, 0], offset[:, 1])
-    angle = np.arctan2(half_size, distance)
+    angle = np.arctan2(half_size, distance) + coverage.unevenness
     if position.shape[1] == 3:  # one that leans passes what is high before its time, or after it
         angle += coverage.tilt * np.abs(offset[:, 2]) / np.maximum(distance, 1.0)
     return np.asarray(np.minimum(angle, LARGEST_MARGIN * TURN) / rate)
