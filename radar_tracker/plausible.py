@@ -35,7 +35,7 @@ def fastest(told: InitiationConfig, farthest: float, steps: Floats, coverage: Co
     told : InitiationConfig
         Has the speed that is told.
     farthest : float
-        Of the plots [m].
+        Of the plots [m], 0: none came.
     steps : (N,) array
         From scan to scan [s], the last ones.
     coverage : Coverage
@@ -43,6 +43,6 @@ def fastest(told: InitiationConfig, farthest: float, steps: Floats, coverage: Co
 
     """
     interval = interval_of_looks(steps, coverage)
-    if steps.sum() < _ENOUGH * interval:
+    if farthest == 0.0 or steps.sum() < _ENOUGH * interval:
         return told.speed_max
     return min(told.speed_max, max(2.0 * farthest / (_FEWEST * interval), _SLOWEST))

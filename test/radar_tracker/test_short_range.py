@@ -80,5 +80,6 @@ def test_speeds_are_as_told_where_a_contact_stays_for_some_looks():
         return fastest(told, farthest, steps, Coverage(40.0, 44.0))
 
     assert limit(50e3) == limit(300.0, turns[:5]) == limit(300.0, turns[:0]) == 600.0
+    assert limit(0.0) == 600.0
     assert limit(300.0) == pytest.approx(25.0)
     assert limit(1e-3, np.full(11, 1e9)) > 0.0
