@@ -13,6 +13,7 @@ import numpy as np
 
 from tracking_core.batches import Coverage, Floats
 from tracking_core.interval import interval_of_looks
+from tracking_core.lifecycle_config import InitiationConfig
 
 _COARSEST = 0.03  # of the farthest plot's distance; no radar's range noise is larger
 _FEWEST = 6.0  # looks that a contact stays in what the radar sees; else nobody confirms it
@@ -25,14 +26,16 @@ def coarsest(farthest: float) -> float:
     return _COARSEST * farthest or np.inf
 
 
-def fastest(farthest: float, steps: Floats, coverage: Coverage) -> float:
+def fastest(told: InitiationConfig, farthest: float, steps: Floats, coverage: Coverage) -> float:
     """
-    Return the speed of the fastest contact that can be tracked [m/s], inf: not known yet.
+    Return the speed of the fastest contact that can be tracked [m/s], as told or less.
 
     Parameters
     ----------
+    told : InitiationConfig
+        Has the speed that is told.
     farthest : float
-        Of the plots [m].
+        Of the plots [m], 0: none came.
     steps : (N,) array
         From scan to scan [s], the last ones.
     coverage : Coverage
@@ -40,6 +43,6 @@ def fastest(farthest: float, steps: Floats, coverage: Coverage) -> float:
 
     """
     interval = interval_of_looks(steps, coverage)
-    if steps.sum() < _ENOUGH * interval:
-        return np.inf
-    return max(2.0 * farthest / (_FEWEST * interval), _SLOWEST)
+    if farthest == 0.0 or steps.sum() < _ENOUGH * interval:
+        return told.speed_max
+    return min(told.speed_max, max(2.0 * farthest / (_FEWEST * interval), _SLOWEST))

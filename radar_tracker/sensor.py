@@ -54,16 +54,6 @@ class Radar:
         return self.config.detection_probability
 
     @property
-    def range_sd(self) -> float:
-        """Range noise of plots that do not tell theirs [m]."""
-        return min(self.config.range_sd, self.coarsest)
-
-    @property
-    def position_sd(self) -> float:
-        """Noise of Cartesian plots that do not tell theirs [m]."""
-        return min(self.config.position_sd, self.coarsest)
-
-    @property
     def range_rate_density(self) -> float:
         """Density of the range rates of false plots [s/m]."""
         return 1.0 / (self.config.range_rate_interval or 2.0 * self.config.range_rate_max)
@@ -89,9 +79,10 @@ class Radar:
         """Return what the radar itself does not know (T, d, d) at offsets (T, d) from it [m^2]."""
         d, c = self.dimensions, self.config
         if not self.is_polar:
-            R = (self.raised[0] * self.position_sd) ** 2 * np.eye(d)
+            R = (self.raised[0] * min(c.position_sd, self.coarsest)) ** 2 * np.eye(d)
             return np.broadcast_to(R, (len(offset), d, d))
-        usual = np.array(self.raised) * [self.range_sd, c.azimuth_sd, c.elevation_sd]
+        range_sd = min(c.range_sd, self.coarsest)
+        usual = np.array(self.raised) * [range_sd, c.azimuth_sd, c.elevation_sd]
         sd = np.broadcast_to(usual[:d], offset.shape)
         return to_cartesian(to_polar(offset), sd)[1]
 
@@ -179,12 +170,12 @@ class Radar:
         """Return position (M, 3) and covariance (M, 3, 3) in sensor axes."""
         c, M, d = self.config, len(plots), self.dimensions
         if not self.is_polar:
-            told, usual = plots.position_covariance, self.position_sd**2 * np.eye(3)
-            covariance = self.raised[0] ** 2 * _or_like(told, usual)
+            usual = min(c.position_sd, self.coarsest) ** 2 * np.eye(3)
+            covariance = self.raised[0] ** 2 * _or_like(plots.position_covariance, usual)
             return _or_like(plots.position, np.zeros(3)), covariance
         polar = np.stack([plots.range, plots.azimuth, np.nan_to_num(plots.elevation)], axis=1)
         sd = np.empty((M, 3))
-        sd[:, 0] = sd_or(plots.range_sd, self.range_sd)
+        sd[:, 0] = sd_or(plots.range_sd, min(c.range_sd, self.coarsest))
         sd[:, 1] = sd_or(plots.azimuth_sd, c.azimuth_sd)
         sd[:, 2] = sd_or(plots.elevation_sd, c.elevation_sd)
         sd *= self.raised

@@ -112,8 +112,7 @@ class RadarTracker:
     def start_track(self, position: Floats, time: float) -> int:
         """Start a confirmed track at a position (2,) or (3,) [m] at a time [s]; return its id."""
         d = self.radar.dimensions
-        full = np.zeros(d)
-        full[: min(len(position), d)] = position[:d]
+        full = np.append(position, 0.0)[:d]  # at height 0 where none is told
         return self.core.acquire(full, time, self.coverage)
 
     def drop_track(self, track_id: int) -> bool:
@@ -185,14 +184,11 @@ class RadarTracker:
         self.farthest = max(self.farthest, distance)
 
     def _allow_for(self, doubt: PlatformDoubt | None) -> None:
-        """Heed what own ship does not know of itself, and where plots say more than parameters."""
-        state, radar = self.state, self.radar
-        raised = state.scatter.raised(is_round=not radar.is_polar)
-        limit = coarsest(self.farthest)
-        if doubt is not radar.doubt or (raised, limit) != (radar.raised, radar.coarsest):
-            self.radar = replace(radar, doubt=doubt, raised=raised, coarsest=limit)
+        """Heed what own ship does not know of itself, and what plots say against parameters."""
+        known, state, limit = self.radar, self.state, coarsest(self.farthest)
+        raised = state.scatter.raised(is_round=not known.is_polar)
+        if doubt is not known.doubt or (raised, limit) != (known.raised, known.coarsest):
+            self.radar = replace(known, doubt=doubt, raised=raised, coarsest=limit)
             self.core.setup = self.core.setup.with_sensor(self.radar)
-        speed = fastest(self.farthest, state.steps, self.coverage)
-        speed = min(speed, self.config.initiation.speed_max)
-        if speed != self.core.setup.initiation.speed_max:
-            self.core.setup = self.core.setup.with_speed_max(speed)
+        speed = fastest(self.config.initiation, self.farthest, state.steps, self.coverage)
+        self.core.setup = self.core.setup.with_speed_max(speed)

@@ -77,8 +77,8 @@ class Setup:
         return replace(self, sensor=sensor, resolution=rule)
 
     def with_speed_max(self, speed: float) -> Setup:
-        """Return the same with another speed of the fastest contact [m/s]."""
-        return replace(
-            self, initiation=replace(self.initiation, speed_max=speed),
-            extent=replace(self.extent, speed_max=speed),
-        )  # fmt: skip
+        """Return the same with this speed of the fastest contact [m/s]."""
+        if speed == self.initiation.speed_max:
+            return self
+        initiation = replace(self.initiation, speed_max=speed)
+        return replace(self, initiation=initiation, extent=replace(self.extent, speed_max=speed))

@@ -19,7 +19,8 @@ PRESETS = sorted((ROOT / 'config').glob('*.yaml'))
 GROUPS = [PRESETS[start : start + 4] for start in range(0, len(PRESETS), 4)]
 WANTED = {
     'air_surveillance_3d', 'air_surveillance_2d', 'terminal_radar', 'marine_radar',
-    'fast_small_craft_radar', 'passive_linear_array', 'direction_finder',
+    'fast_small_craft_radar', 'passive_linear_array', 'direction_finder', 'drone_radar',
+    'surface_movement_radar', 'short_range_radar',
 }  # fmt: skip
 
 
@@ -76,7 +77,7 @@ def test_presets_load_in_a_node(presets, ros_domain_id, tmp_path):
 
 
 def test_wanted_presets_are_shipped():
-    """Air, terminal, sea, small craft, array and direction finder."""
+    """Air, terminal, sea, small craft, drones, airport, short range, array, direction finder."""
     assert {path.stem for path in PRESETS} >= WANTED
 
 

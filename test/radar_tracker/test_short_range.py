@@ -14,6 +14,7 @@ from radar_tracker.plausible import fastest
 from radar_tracker.tracker import RadarTracker
 from tracking_core.batches import Coverage, Plots
 from tracking_core.config import with_values
+from tracking_core.lifecycle_config import InitiationConfig
 
 PEOPLE = 4
 QUICK = {'farthest': 30.0, 'period': 0.1, 'sd': (0.15, 0.01), 'false': 2.0, 'speed': 1.0}
@@ -73,9 +74,12 @@ def test_noise_that_a_radar_can_have_is_used_as_told():
 
 def test_speeds_are_as_told_where_a_contact_stays_for_some_looks():
     """Nor is anything taken for known in the first looks, or by a sensor that saw nothing."""
-    coverage, turns = Coverage(40.0, 44.0), np.full(11, 4.0)
-    assert fastest(50e3, turns, coverage) > 4000.0
-    assert fastest(300.0, turns, coverage) == pytest.approx(25.0)
-    assert fastest(300.0, turns[:5], coverage) == np.inf
-    assert fastest(300.0, turns[:0], coverage) == np.inf
-    assert fastest(1e-3, np.full(11, 1e9), coverage) > 0.0
+    turns, told = np.full(11, 4.0), InitiationConfig()
+
+    def limit(farthest, steps=turns):
+        return fastest(told, farthest, steps, Coverage(40.0, 44.0))
+
+    assert limit(50e3) == limit(300.0, turns[:5]) == limit(300.0, turns[:0]) == 600.0
+    assert limit(0.0) == 600.0
+    assert limit(300.0) == pytest.approx(25.0)
+    assert limit(1e-3, np.full(11, 1e9)) > 0.0
