@@ -11,7 +11,7 @@ import numpy as np
 
 from radar_tracker import mounting
 from radar_tracker.conversion import to_cartesian, to_polar
-from radar_tracker.mounting import PlatformDoubt
+from radar_tracker.platform_doubt import platform_noise, PlatformDoubt
 from radar_tracker.plot_space import of_plots, space_per_metre
 from radar_tracker.resolving import limits, reach
 from radar_tracker.sensor_config import SensorConfig
@@ -139,7 +139,7 @@ class Radar:
             offset = np.einsum('mij,mj->mi', rotation, local, order='F')
             covariance = rotation @ covariance @ np.swapaxes(rotation, 1, 2)
         position = offset + origin
-        covariance = covariance + mounting.platform_noise(pose, offset)
+        covariance = covariance + platform_noise(pose, offset)
         unknown = np.zeros(len(plots), bool)
         if d == 3:
             unknown = np.isnan(plots.elevation if self.is_polar else plots.position[:, 2])

@@ -14,7 +14,8 @@ from radar_tracker.build import build_antenna, build_setup
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import azimuth_of, farthest
 from radar_tracker.heights import flat_after, is_other
-from radar_tracker.mounting import coverage_of, PlatformDoubt
+from radar_tracker.mounting import coverage_of
+from radar_tracker.platform_doubt import PlatformDoubt
 from radar_tracker.plausible import coarsest, fastest
 from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar

@@ -13,8 +13,9 @@ from scipy.spatial.transform import Rotation
 from msg_adapters.message_types import stamp_of
 from msg_adapters.table import from_columns, to_columns
 from radar_tracker.config import RadarTrackerConfig
-from radar_tracker.mounting import in_sensor_axes, PlatformDoubt
+from radar_tracker.mounting import in_sensor_axes
 from radar_tracker.node_config import radar_node_config
+from radar_tracker.platform_doubt import PlatformDoubt
 from radar_tracker.sensor import Radar
 from radar_tracker.sensor_config import MountConfig
 from radar_tracker.session import radar_session
