@@ -12,7 +12,7 @@ COMMANDS = [
     ('report.command', ['BAG', '--output']),
     ('evaluate', ['BAG', '--json']),
     ('sweep', ['crossing', '--output', 'OUT', '--picture']),
-    ('marker_picture', ['BAG', '--params', 'P', '--output']),
+    ('marker_picture', ['BAG', '--params', 'radar', '--output']),
 ]
 
 
