@@ -16,7 +16,7 @@ from tracking_core.pairing import Gates, open_gates, thresholds
 from tracking_core.rows import change, take, take_rows
 
 _CLOCK = 1e-6  # s; times since 1970 are good to 2.4e-7
-_GATES_APART = 4.0  # gates between a track and where its next one, after a miss, may begin
+_FARTHEST, _AFTER_MISS = 2.0, 4.0  # gates from a track, where its next one may begin
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def next_passes(
     rows = lives.nonzero()[0]
     position, velocity, time, gate = (take_rows(part, rows) for part in motion)
     looks = next_looks(position, velocity, time, scan.coverage)
-    size = _GATES_APART * gate.max(axis=1, initial=0.0)
+    size = np.where(updated.misses[rows] > 0, _AFTER_MISS, _FARTHEST) * gate.max(1, initial=0.0)
     margin = margins(position, size, scan.coverage)
     begun = looks.time - margin <= scan.coverage.end_time
     if begun.any():
