@@ -130,8 +130,10 @@ class Coverage:
 
     def azimuth_at(self, time: Floats) -> Floats:
         """Return where the antenna points (T,) [rad], without the turns that it has made."""
-        moments = np.linspace(self.start_time, self.end_time, len(self.swing))
         even = self.start_azimuth + self.rotation_rate * (time - self.start_time)
+        if not any(self.swing):
+            return np.asarray(even)
+        moments = np.linspace(self.start_time, self.end_time, len(self.swing))
         return np.asarray(even + np.interp(time, moments, self.swing))
 
     @property

@@ -95,8 +95,8 @@ def next_passes(
         track, plot = box_pairs(place, box, take_rows(scan.position[:, :2], plots))
         early = np.abs(scan.time[plots[plot]] - late[track]) <= margin[begun][track]
         waiting[plots[plot[early]]] = True
-    # More than complete, lest a contact beside the cut takes turns at waiting or not.
-    complete = looks.time + margin <= scan.coverage.end_time
+    # A little more than complete, lest a contact beside the cut takes turns at waiting or not.
+    complete = looks.time + 2.0 * margin <= scan.coverage.end_time
     return bool(complete.any()), waiting
 
 
