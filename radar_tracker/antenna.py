@@ -101,7 +101,7 @@ class Antenna:
             span = np.array([[first, last]]) - plots.stamp
             self._spans = np.concatenate([self._spans, span])[-_AGREEING:]
         earlier = self._stamps[self._stamps < plots.stamp]
-        self._stamps = np.append(earlier, plots.stamp)[-STAMPS:]
+        self._stamps = np.concatenate((earlier, [plots.stamp]))[-STAMPS:]
         if beam is None:
             self._learn(plots.time, azimuth)
         else:

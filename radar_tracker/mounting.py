@@ -121,18 +121,16 @@ def coverage_of(sweep: Sweep, poses: PlatformPose, sensor: SensorConfig) -> Cove
         Mount and limits.
 
     """
-    share = np.linspace(0.0, 1.0, len(poses.position))
     rotation, place = sensor_pose(poses, sensor.mount)
-    turned = _turned(rotation, sweep.start_azimuth + sweep.angle * share)
-    swing = turned - (turned[0] + (turned[-1] - turned[0]) * share)
+    begin, end, swing = (0.0, 0.0, NO_SWING) if rotation is None else _turned(rotation, sweep)
     duration = sweep.end_time - sweep.start_time
     velocity = (place[-1] - place[0]) / duration if duration > 0.0 else np.zeros(3)
     x, y, z = (0.5 * (place[0] + place[-1])).tolist()
     return Coverage(
         start_time=sweep.start_time,
         end_time=sweep.end_time,
-        start_azimuth=sweep.start_azimuth + float(turned[0]),
-        sweep=sweep.angle + float(turned[-1] - turned[0]) if sweep.angle else 0.0,
+        start_azimuth=sweep.start_azimuth + begin,
+        sweep=sweep.angle + end - begin if sweep.angle else 0.0,
         gaps=sweep.gaps,
         unevenness=sweep.unevenness,
         sensor_position=(x, y, z),
@@ -142,14 +140,22 @@ def coverage_of(sweep: Sweep, poses: PlatformPose, sensor: SensorConfig) -> Cove
         sector_centre=sensor.sector_centre + float(poses.yaw[-1]) + sensor.mount.yaw,
         sector_width=sensor.sector_width,
         tilt=0.0 if rotation is None else float(np.arccos(min(rotation[:, 2, 2].min(), 1.0))),
-        swing=tuple(swing.tolist()) if sweep.angle and sweep.is_long else NO_SWING,
+        swing=swing,
     )
 
 
-def _turned(rotation: Floats | None, azimuth: Floats) -> Floats:
-    """Return how far the platform has turned what is at these azimuths (K,) of its deck [rad]."""
-    if rotation is None:
-        return np.zeros(len(azimuth))
+def _turned(rotation: Floats, sweep: Sweep) -> tuple[float, float, tuple[float, ...]]:
+    """
+    Return how far the platform has turned what the antenna points at [rad].
+
+    At the start, at the end, and, in a long sweep, how far ahead it is of an even turn meanwhile.
+    """
+    share = np.linspace(0.0, 1.0, len(rotation))
+    azimuth = sweep.start_azimuth + sweep.angle * share
     on_deck = np.stack([np.cos(azimuth), np.sin(azimuth), 0.0 * azimuth], axis=1)
     about = levelled(rotation, on_deck)
-    return np.asarray(np.unwrap(np.arctan2(about[:, 1, 0], about[:, 0, 0])))
+    turned = np.unwrap(np.arctan2(about[:, 1, 0], about[:, 0, 0]))
+    begin, end = float(turned[0]), float(turned[-1])
+    if not (sweep.angle and sweep.is_long):
+        return begin, end, NO_SWING
+    return begin, end, tuple((turned - (begin + (end - begin) * share)).tolist())

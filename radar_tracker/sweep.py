@@ -30,9 +30,16 @@ class Sweep:
         return self.end_time - self.start_time > EVEN
 
     @property
+    def ends(self) -> Floats:
+        """Return start and end (2,) [s]."""
+        return np.array([self.start_time, self.end_time])
+
+    @property
     def moments(self) -> Floats:
         """Return times (K,) in even steps from start to end [s]."""
-        return np.linspace(self.start_time, self.end_time, len(NO_SWING) if self.is_long else 2)
+        if not self.is_long:
+            return self.ends
+        return np.linspace(self.start_time, self.end_time, len(NO_SWING))
 
 
 @dataclass(frozen=True)

@@ -155,7 +155,7 @@ class RadarTracker:
         self._allow_for(PlatformDoubt.of(pose) if platform is not None else None)
         azimuth = azimuth_of(collected, self.radar.is_polar)
         sweep = self.antenna.follow(collected, azimuth, beam, turns.part if turns else 0.0)
-        poses = pose_at(platform, sweep.moments)
+        poses = pose_at(platform, sweep.moments if platform is not None else sweep.ends)
         coverage = self.coverage = coverage_of(sweep, poses, self.config.sensor)
         volume = self.radar.plot_space_volume(self.farthest or self.config.sensor.range_max)
         return self.core.step(self.radar.measure(collected, pose, coverage, volume))

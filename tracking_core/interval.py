@@ -21,7 +21,7 @@ _ROUNDING = 1e-3  # looks
 
 def add_step(steps: Floats, since: float) -> Floats:
     """Return the last steps (N,) from scan to scan with this one, if it was one [s]."""
-    return np.append(steps, since)[-_MOST:] if 0.0 < since < np.inf else steps
+    return np.concatenate((steps, [since]))[-_MOST:] if 0.0 < since < np.inf else steps
 
 
 def interval_of_looks(steps: Floats, coverage: Coverage) -> float:
@@ -29,7 +29,7 @@ def interval_of_looks(steps: Floats, coverage: Coverage) -> float:
     rate = abs(coverage.rotation_rate)
     if rate:
         return TURN / rate
-    usual = float(np.sort(steps)[len(steps) // 2]) if len(steps) else 0.0
+    usual = sorted(steps.tolist())[len(steps) // 2] if len(steps) else 0.0
     return max(usual, coverage.end_time - coverage.start_time) or _UNKNOWN
 
 

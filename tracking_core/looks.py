@@ -18,6 +18,7 @@ from tracking_core.batches import Bools, Coverage, Floats
 from tracking_core.linalg import TURN, wrap_angle
 
 LARGEST_MARGIN = 1.0 / 8.0  # of a turn: a gate about the sensor itself is not waited for longer
+_OFF = 1.0 / 16.0 * TURN  # by which the antenna is not where it was thought to be, at most [rad]
 LONGEST_WAIT = 1.0 / 4.0  # of a turn: then a track no longer waits for open neighbours
 
 
@@ -66,6 +67,23 @@ def next_looks(position: Floats, velocity: Floats, time: Floats, coverage: Cover
         passed = passed + wrap_angle(azimuth(passed) - antenna) / rate
     passed = time + np.maximum(passed, 0.5 * period)
     return Looks(passed, passed - margin < coverage.end_time)
+
+
+def may_be_passed_again(
+    position: Floats, velocity: Floats, time: Floats, size: Floats, coverage: Coverage
+) -> Bools:
+    """
+    Return which tracks (T,) the antenna can have come back to: few, and cheaper than when.
+
+    `position`, `velocity` and `time` as for `next_looks`; `size` (T,) [m] is what the next look
+    may begin earlier, or the last one was off.
+    """
+    rate, sensor = abs(coverage.rotation_rate), coverage.sensor_at(time)
+    (x, y), (vx, vy) = (position - sensor[:, :2]).T, (velocity - sensor[:, 2:]).T
+    reach = np.hypot(vx, vy) * (TURN / rate) + size
+    swung = np.pi * reach / np.maximum(np.hypot(x, y), 1.0)  # no less than the angle that it is
+    ahead = swung + _OFF + coverage.unevenness + max(map(abs, coverage.swing))
+    return np.asarray(time + np.maximum(TURN - ahead, 0.0) / rate <= coverage.end_time)
 
 
 def _first_pass(lag: Floats, time: Floats, period: float, coverage: Coverage) -> Floats:

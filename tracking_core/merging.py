@@ -45,6 +45,8 @@ def end_doubles(
 
     """
     near = duplicates(tracks, config.distance, space)
+    if not (near.any() or tracks.doubled.any()):
+        return tracks, near
     looks = np.where(near, tracks.doubled + 1, 0)
     tracks = change(tracks, doubled=np.where(passed, looks, tracks.doubled))
     patience = np.maximum(config.looks, _SHARE * tracks.hits if is_unresolved else 0)

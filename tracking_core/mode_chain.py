@@ -76,6 +76,6 @@ class ModeChain:
     def transition_probability(self, dt: Floats) -> Floats:
         """Return Pi (T, J, J) over the times dt (T,) [s]; entry [t, i, j] is from i to j."""
         rates, parts = self._spectrum
-        decay = np.exp(rates[:, None] * dt).T  # (T, k)
-        product = np.einsum('tk,kij->tij', decay, parts, order='F')
+        decay, J = np.exp(rates[:, None] * dt), self.modes  # (k, T)
+        product = (parts.reshape(len(rates), -1).T @ decay).reshape(J, J, -1).transpose(2, 0, 1)
         return np.asarray(np.minimum(np.maximum(product, 0.0), 1.0))

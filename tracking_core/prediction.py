@@ -11,7 +11,7 @@ import numpy as np
 from tracking_core.batches import Bools, Floats, Ints, Mixture, Scan, Tracks
 from tracking_core.composition import Setup
 from tracking_core.gating import box_pairs
-from tracking_core.looks import inside_coverage, margins, next_looks
+from tracking_core.looks import inside_coverage, margins, may_be_passed_again, next_looks
 from tracking_core.pairing import Gates, open_gates, thresholds
 from tracking_core.rows import change, take, take_rows
 
@@ -80,11 +80,16 @@ def next_passes(
     is_after_gap = scan.coverage.gaps[-1][1] == scan.coverage.start_time
     if abs(scan.coverage.sweep) < np.pi and not is_after_gap:
         return False, waiting
-    motion = (*_level_motion(updated), updated.time, half_size[:, :2])
+    gate = half_size[:, :2].max(axis=1, initial=0.0)
+    size = np.where(updated.misses > 0, _AFTER_MISS, _FARTHEST) * gate
+    motion = (*_level_motion(updated), updated.time, size)
+    if not is_after_gap:
+        lives = lives & may_be_passed_again(*motion, scan.coverage)
     rows = lives.nonzero()[0]
-    position, velocity, time, gate = (take_rows(part, rows) for part in motion)
+    if len(rows) == 0:
+        return False, waiting
+    position, velocity, time, size = (take_rows(part, rows) for part in motion)
     looks = next_looks(position, velocity, time, scan.coverage)
-    size = np.where(updated.misses[rows] > 0, _AFTER_MISS, _FARTHEST) * gate.max(1, initial=0.0)
     margin = margins(position, size, scan.coverage)
     begun = looks.time - margin <= scan.coverage.end_time
     if begun.any():

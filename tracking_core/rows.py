@@ -25,7 +25,7 @@ _PLAIN = ('float', 'int', 'bool', 'str', 'tuple[float, float, float]', 'Gaps')  
 def take(batch: Batch, rows: NDArray[Any] | slice) -> Batch:
     """Return the batch of these rows: every array is indexed, everything else is kept."""
     if isinstance(rows, np.ndarray) and rows.dtype == np.bool_:
-        if rows.all():
+        if np.count_nonzero(rows) == len(rows):
             return batch  # the usual case: nothing was deleted, all were passed
         rows = rows.nonzero()[0]
     return cast('Batch', _take(batch, rows))
@@ -57,8 +57,10 @@ def put(batch: Batch, rows: NDArray[Any], part: Batch) -> Batch:
 def change(batch: Batch, **columns: Any) -> Batch:
     """Return what `dataclasses.replace` returns, in half its time."""
     kind: Any = type(batch)
-    old = vars(batch)
-    return cast('Batch', _batch(kind, {**{name: old[name] for name in _names(kind)}, **columns}))
+    old, names = vars(batch), _names(kind)
+    if len(old) > len(names):
+        old = {name: old[name] for name in names}
+    return cast('Batch', _batch(kind, {**old, **columns}))
 
 
 def take_rows(values: NDArray[Any], rows: NDArray[Any] | slice) -> NDArray[Any]:
@@ -81,7 +83,11 @@ def _take(value: Any, rows: NDArray[Any] | slice) -> Any:
     kind: Any = type(value)
     if not _is_batch(kind):
         return value
-    return _batch(kind, {name: _take(part, rows) for name, part in vars(value).items()})
+    # Most parts are arrays: a call for each is a third of the time.
+    return _batch(kind, {
+        name: take_rows(part, rows) if type(part) is np.ndarray else _take(part, rows)
+        for name, part in vars(value).items()
+    })  # fmt: skip
 
 
 def _join(value: Any, other: Any, join: Callable[..., NDArray[Any]]) -> Any:

@@ -161,9 +161,9 @@ class Tracker:
         if rate:
             pause = max(pause, FEWEST_TURNS * TURN / rate)
         earliest = scan.coverage.start_time - pause
-        silent, old = tracks.time < earliest, seeds.time < earliest
-        if not (silent.any() or old.any()):
+        if min(tracks.time.min(initial=np.inf), seeds.time.min(initial=np.inf)) >= earliest:
             return self.state, tracks.id[:0]
+        silent, old = tracks.time < earliest, seeds.time < earliest
         left = replace(self.state, tracks=take(tracks, ~silent), seeds=take(seeds, ~old))
         return left, tracks.id[silent]
 

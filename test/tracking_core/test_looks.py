@@ -12,7 +12,14 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tracking_core.batches import Coverage, NO_SWING
-from tracking_core.looks import inside_coverage, LARGEST_MARGIN, longest_since, margins, next_looks
+from tracking_core.looks import (
+    inside_coverage,
+    LARGEST_MARGIN,
+    longest_since,
+    margins,
+    may_be_passed_again,
+    next_looks,
+)  # fmt: skip
 
 PERIOD = 4.0
 
@@ -116,6 +123,32 @@ def test_next_looks_see_nothing_of_a_gap(
     passed = looks.time[looks.time <= coverage.end_time]
     inside = [(passed >= begin) & (passed <= end) for begin, end in watched]
     assert len(passed) == np.sum(inside) == round(sum(20.0 * (e - b) for b, e in watched))
+
+
+@pytest.mark.parametrize('sense', [1.0, -1.0])
+@pytest.mark.parametrize('turns', [0.9, 1.0, 1.4])
+@pytest.mark.parametrize('speed', [5.0, 300.0])
+def test_tracks_that_may_be_passed_again_are_few_and_all(
+    sense: float, turns: float, speed: float
+) -> None:
+    """Each whose next look has begun is among them; of slow ones nearly no other in a turn."""
+    rng = np.random.default_rng(2)
+    swing = 0.1 * np.sin(np.linspace(0.0, 2.0 * np.pi, len(NO_SWING)))
+    coverage = Coverage(
+        100.0, 100.0 + turns * PERIOD, 1.0, sense * turns * 2.0 * np.pi, unevenness=0.02,
+        sensor_velocity=(10.0, 5.0, 0.0), swing=tuple(swing.tolist()),
+    )  # fmt: skip
+    time = rng.uniform(100.0, coverage.end_time, 2000)
+    distance, size = rng.uniform(100.0, 2e4, 2000), rng.uniform(0.0, 500.0, 2000)
+    azimuth = coverage.azimuth_at(time) + rng.uniform(-1.0, 1.0, 2000) * size / distance
+    where = np.stack([distance * np.cos(azimuth), distance * np.sin(azimuth)], axis=1)
+    motion = where + coverage.sensor_at(time)[:, :2], rng.normal(0.0, speed, (2000, 2)), time
+    looks = next_looks(*motion, coverage)
+    begun = looks.time - margins(motion[0], size, coverage) <= coverage.end_time
+    may = may_be_passed_again(*motion, size, coverage)
+    assert not (begun & ~may).any()
+    assert begun.any()
+    assert may.mean() < begun.mean() + 0.35
 
 
 def test_next_looks_of_a_staring_sensor_are_in_the_middle() -> None:

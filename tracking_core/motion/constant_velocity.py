@@ -30,8 +30,8 @@ class ConstantVelocity:
 
     def transition(self, dt: Floats) -> Floats:
         """Return F (T, n, n) over the times dt (T,) [s]."""
-        matrix = np.empty((len(dt), 2 * self.axes, 2 * self.axes), order='F')
-        matrix[:] = np.eye(2 * self.axes)
+        matrix = np.zeros((len(dt), 2 * self.axes, 2 * self.axes), order='F')
+        np.einsum('tnn->tn', matrix)[...] = 1.0
         for place in range(0, 2 * self.axes, 2):
             matrix[:, place, place + 1] = dt
         return matrix
