@@ -127,6 +127,34 @@ class Sonar:
             excess=(float(unsure.max(initial=0.0)), 0.0, 0.0),
         )
 
+    def listen(self, pose: PlatformPose, start: float, end: float) -> Coverage:
+        """
+        Return what a cycle listens to, in the tracking frame.
+
+        Parameters
+        ----------
+        pose : PlatformPose
+            One, in the middle of the cycle.
+        start, end : float
+            Times of its first and last mark [s].
+
+        """
+        sensor, mount = self.config, self.config.mount
+        (heading,), ((x, y, z),) = pose.yaw.tolist(), pose.position.tolist()
+        cos, sin = np.cos(heading), np.sin(heading)
+        return Coverage(
+            start_time=start,
+            end_time=end,
+            sensor_position=(
+                float(x + cos * mount.x - sin * mount.y),
+                float(y + sin * mount.x + cos * mount.y),
+                z,
+            ),
+            sensor_velocity=tuple(pose.velocity[0].tolist()),
+            sector_centre=heading + mount.yaw + sensor.sector_centre,
+            sector_width=sensor.sector_width,
+        )
+
     def heard(self, marks: Bearings) -> Bearings:
         """Return the marks, on both sides of the axis if they count there."""
         if not self.config.both_sides:

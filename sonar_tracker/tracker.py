@@ -157,7 +157,7 @@ class SonarTracker:
         times = bearings.time if len(bearings) else np.array([bearings.stamp])
         start, end = float(times.min()), float(times.max())
         pose = pose_at(platform, np.append(bearings.time, 0.5 * (start + end)))
-        self.coverage = self._listen(pose, start, end)
+        self.coverage = self.sonar.listen(take(pose, slice(-1, None)), start, end)
         at_marks = take(pose, slice(0, -1))
         self._expect(bearings, at_marks)
         tracks = self.core.step(self.sonar.measure(bearings, at_marks, self.coverage))
@@ -177,22 +177,3 @@ class SonarTracker:
             usual = float(np.median(sd)) if len(sd) else 0.0
             self.sonar = Sonar(self.config.sensor, usual, float(np.sqrt(pose.yaw_variance.max())))
             self.core.setup = self.core.setup.with_sensor(self.sonar)
-
-    def _listen(self, pose: PlatformPose, start: float, end: float) -> Coverage:
-        """Return what this cycle listens to, in the tracking frame; the last pose counts."""
-        sensor, mount = self.config.sensor, self.config.sensor.mount
-        heading = float(pose.yaw[-1])
-        cos, sin = np.cos(heading), np.sin(heading)
-        x, y, z = pose.position[-1]
-        return Coverage(
-            start_time=start,
-            end_time=end,
-            sensor_position=(
-                float(x + cos * mount.x - sin * mount.y),
-                float(y + sin * mount.x + cos * mount.y),
-                float(z),
-            ),
-            sensor_velocity=tuple(pose.velocity[-1].tolist()),
-            sector_centre=float(heading + mount.yaw + sensor.sector_centre),
-            sector_width=sensor.sector_width,
-        )
