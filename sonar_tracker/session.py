@@ -30,7 +30,7 @@ from tracking_session.ledger import Log
 from tracking_session.node_config import NodeConfig
 from tracking_session.session import Session
 
-_ADVICE = 'set it right, or tell with own ship how sure the heading is'
+_ADVICE = 'that is used; set it right, or tell with own ship how sure the heading is'
 
 
 def sonar_session(
