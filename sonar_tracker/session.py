@@ -70,6 +70,11 @@ class SonarInstrument:
         return self.tracker.config.sensor.mount != MountConfig()
 
     @property
+    def shares_stamps(self) -> bool:
+        """Whether a cycle comes in several messages."""
+        return self.tracker.config.scan.period > 0.0
+
+    @property
     def reach(self) -> float:
         """The farthest contact [m]."""
         return self.tracker.config.ranging.range_max
@@ -77,7 +82,8 @@ class SonarInstrument:
     def read(self, msg: Any, mapping: Mapping[str, str]) -> Reading[Bearings]:
         """Return the marks of a message."""
         config = self.tracker.config
-        return to_bearings(msg, config.sensor, config.max_plots, self._overrides)
+        reading = to_bearings(msg, config.sensor, config.max_plots, self._overrides)
+        return replace(reading, note='') if self.shares_stamps else reading
 
     def moments(self, plots: Bearings) -> Floats:
         """Return the times (K,) [s] at which own ship must be known."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from sonar_tracker.build import build_setup
 from sonar_tracker.config import SonarTrackerConfig
+from sonar_tracker.cycles import Cycles
 from sonar_tracker.ranging import RangeEstimates, Ranging
 from sonar_tracker.sensor import Sonar
 from tracking_core.batches import Bearings, Coverage, Floats, Tracks
@@ -52,6 +53,8 @@ class SonarTracker:
         self.sonar = Sonar(self.config.sensor)
         self.core = Tracker(build_setup(self.config, self.sonar))
         self.core.reset(next_id)
+        period, most = self.config.scan.period, self.config.max_plots
+        self.cycles = Cycles(period, most) if period else None
         self.coverage = Coverage(0.0, 0.0)  # of the last cycle, in the tracking frame
         self.ranging = Ranging(self.config.ranging)
         self.heard = -np.inf  # end of the newest cycle that told of ranges [s]
@@ -67,12 +70,12 @@ class SonarTracker:
 
     @property
     def turn_time(self) -> float:
-        """0: every message is a scan."""
-        return 0.0
+        """Time of a cycle of several messages [s], 0: every message is a cycle."""
+        return self.config.scan.period
 
     def save(self) -> tuple[Any, ...]:
         """Return what `restore` takes to go back to this moment: references, no copies of data."""
-        return self.config, self.sonar, copy(self.core), self.coverage
+        return self.config, self.sonar, copy(self.core), self.coverage, copy(self.cycles)
 
     def restore(self, memory: tuple[Any, ...]) -> None:
         """
@@ -80,8 +83,8 @@ class SonarTracker:
 
         What was learnt of ranges stays too: marks that come late do not count for it.
         """
-        config, self.sonar, tracker, self.coverage = memory
-        self.core = copy(tracker)
+        config, self.sonar, tracker, self.coverage, cycles = memory
+        self.core, self.cycles = copy(tracker), copy(cycles)
         if self.config != config:
             self.reconfigure(self.config)
 
@@ -138,7 +141,8 @@ class SonarTracker:
         Parameters
         ----------
         bearings : Bearings
-            All marks of the cycle; none is a cycle that heard nothing.
+            All marks of a cycle, none is one that heard nothing; with `scan.period` those of
+            one message, and the cycle before is followed where this begins another one.
         platform : Platform, optional
             Own ship in the tracking frame; without it the sonar stands at the origin.
 
@@ -153,7 +157,10 @@ class SonarTracker:
             If own ship is not known at the time of the marks.
 
         """
-        bearings = self.sonar.heard(bearings)
+        cycle = self.cycles.add(bearings) if self.cycles else bearings
+        if cycle is None:
+            return self.tracks
+        bearings = self.sonar.heard(cycle)
         times = bearings.time if len(bearings) else np.array([bearings.stamp])
         start, end = float(times.min()), float(times.max())
         pose = pose_at(platform, np.append(bearings.time, 0.5 * (start + end)))
