@@ -15,6 +15,7 @@ from sonar_tracker.config import SonarTrackerConfig
 from sonar_tracker.cycles import Cycles
 from sonar_tracker.ranging import RangeEstimates, Ranging
 from sonar_tracker.sensor import Sonar
+from sonar_tracker.turn_check import TurnCheck
 from tracking_core.batches import Bearings, Coverage, Floats, Tracks
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
@@ -57,6 +58,7 @@ class SonarTracker:
         self.cycles = Cycles(period, most) if period else None
         self.coverage = Coverage(0.0, 0.0)  # of the last cycle, in the tracking frame
         self.ranging = Ranging(self.config.ranging)
+        self.turns = TurnCheck()
         self.heard = -np.inf  # end of the newest cycle that told of ranges [s]
 
     @property
@@ -167,7 +169,9 @@ class SonarTracker:
         self.coverage = self.sonar.listen(take(pose, slice(-1, None)), start, end)
         at_marks = take(pose, slice(0, -1))
         self._expect(bearings, at_marks)
-        tracks = self.core.step(self.sonar.measure(bearings, at_marks, self.coverage))
+        scan = self.sonar.measure(bearings, at_marks, self.coverage)
+        self.turns.note(scan, self.coverage.sector_centre)
+        tracks = self.core.step(scan)
         if self.config.ranging.enabled and end > self.heard:
             self.heard = end
             self.ranging.add(tracks, self.coverage, self.sonar.heading_sd)
