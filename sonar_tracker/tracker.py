@@ -184,9 +184,10 @@ class SonarTracker:
     def _expect(self, bearings: Bearings, pose: PlatformPose) -> None:
         """Open the gates for marks as sure as they usually are, and the heading at its worst."""
         if len(bearings):
-            sonar = replace(self.sonar, raised=self.state.scatter.raised()[0])
-            sd = sonar.mark_sd(bearings)[bearings.bearing_sd > 0.0]  # NaN: not told
+            sensor, raised = self.config.sensor, self.state.scatter.raised()[0]
+            sd = Sonar(sensor, raised=raised).mark_sd(bearings)
+            sd = sd[bearings.bearing_sd > 0.0]  # NaN: not told
             usual = float(np.median(sd)) if len(sd) else 0.0
             heading_sd = float(np.sqrt(pose.yaw_variance.max()))
-            self.sonar = replace(sonar, usual_sd=usual, heading_sd=heading_sd)
+            self.sonar = Sonar(sensor, usual, heading_sd, raised)
             self.core.setup = self.core.setup.with_sensor(self.sonar)
