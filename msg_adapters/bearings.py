@@ -13,11 +13,17 @@ import numpy as np
 from msg_adapters.azimuths import anticlockwise
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import BEARINGS, describe
+from msg_adapters.kinds.menu import is_single
 from msg_adapters.reading import read_fields, Reading, refuse_if_useless
 from msg_adapters.row_checks import bearing_checks, choose_rows, usable_values
 from tracking_core.batches import Bearings
 from tracking_core.linalg import wrap_angle
 from tracking_core.rows import take
+
+_SINGLE = (
+    'each message is one bearing, and taken for all that a cycle heard: if there are several '
+    'contacts, set scan.period to the time in which each of them is told once'
+)
 
 
 class Convention(Protocol):
@@ -76,4 +82,5 @@ def to_bearings(
     refuse_if_useless(msg, keep, dropped)
     marks = take(marks, keep)
     marks = replace(marks, bearing=wrap_angle(marks.bearing))
-    return Reading(marks, dropped, doubtful, message.mapping)
+    note = _SINGLE if is_single(msg) else ''
+    return Reading(marks, dropped, doubtful, message.mapping, note)

@@ -76,6 +76,11 @@ class RadarInstrument:
         return self.tracker.config.sensor.mount != MountConfig()
 
     @property
+    def shares_stamps(self) -> bool:
+        """No: an antenna needs time from one sector to the next."""
+        return False
+
+    @property
     def reach(self) -> float:
         """The radar's range [m]."""
         return self.tracker.config.sensor.range_max

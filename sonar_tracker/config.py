@@ -30,6 +30,21 @@ _ONE_MODE = ('kalman_decoupled', 'finite_memory')
 
 
 @dataclass(frozen=True)
+class CycleConfig:
+    """How messages become cycles."""
+
+    period: float = parameter(
+        0.0, unit='s', low=0.0,
+        doc='time of a cycle that comes in several messages, as one bearing each: they are '
+        'collected, and used when the next cycle begins; 0: every message is a cycle',
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their limits."""
+        validate(self)
+
+
+@dataclass(frozen=True)
 class BearingInitiationConfig:
     """How tracks start from marks that no track claimed."""
 
@@ -64,6 +79,7 @@ class SonarTrackerConfig:
     """All parameters of the sonar tracker."""
 
     sensor: SensorConfig = field(default_factory=SensorConfig)
+    scan: CycleConfig = field(default_factory=CycleConfig)
     motion: MotionConfig = field(default_factory=MotionConfig)
     gate: GateConfig = field(default_factory=lambda: GateConfig(probability=_GATE))
     existence: ExistenceConfig = field(default_factory=lambda: ExistenceConfig(drop=_DROP))

@@ -39,7 +39,9 @@ def recall(tracker: SonarTracker, memory: dict[str, Any]) -> None:
 
     """
     check_form(memory, remember(tracker))
-    tracker.sonar = Sonar(tracker.config.sensor, memory['usual_sd'], memory['heading_sd'])
+    (raised, *_) = memory['state'].scatter.raised()
+    told = memory['usual_sd'], memory['heading_sd'], raised
+    tracker.sonar = Sonar(tracker.config.sensor, *told)
     tracker.core = Tracker(build_setup(tracker.config, tracker.sonar))
     tracker.state, tracker.coverage = memory['state'], memory['coverage']
     tracker.heard = memory['heard']

@@ -25,6 +25,7 @@ class Sonar:
     config: SensorConfig
     usual_sd: float = 0.0  # that marks tell, 0: as configured [rad]
     heading_sd: float = 0.0  # of own ship, at most [rad]
+    raised: float = 1.0  # sds of marks over those told, as they are found to be
 
     @property
     def dimensions(self) -> int:
@@ -50,7 +51,7 @@ class Sonar:
         """Return the variance (T, 1, 1) expected at bearings (T, 1) [rad^2]."""
         sd = np.full(position.shape, self.usual_sd)
         if not self.usual_sd:
-            sd = self.config.bearing_sd * self._blur(position - self._axis(coverage))
+            sd = self.raised * self.config.bearing_sd * self._blur(position - self._axis(coverage))
         return np.asarray(sd[:, :, None] ** 2 + self.heading_sd**2)
 
     def plot_space_volume(self, range_max: Floats) -> Floats:
@@ -125,6 +126,35 @@ class Sonar:
             coverage=coverage,
             volume=self.config.sector_width,
             excess=(float(unsure.max(initial=0.0)), 0.0, 0.0),
+            raised=(self.raised, 1.0, 1.0),
+        )
+
+    def listen(self, pose: PlatformPose, start: float, end: float) -> Coverage:
+        """
+        Return what a cycle listens to, in the tracking frame.
+
+        Parameters
+        ----------
+        pose : PlatformPose
+            One, in the middle of the cycle.
+        start, end : float
+            Times of its first and last mark [s].
+
+        """
+        sensor, mount = self.config, self.config.mount
+        (heading,), ((x, y, z),) = pose.yaw.tolist(), pose.position.tolist()
+        cos, sin = np.cos(heading), np.sin(heading)
+        return Coverage(
+            start_time=start,
+            end_time=end,
+            sensor_position=(
+                float(x + cos * mount.x - sin * mount.y),
+                float(y + sin * mount.x + cos * mount.y),
+                z,
+            ),
+            sensor_velocity=tuple(pose.velocity[0].tolist()),
+            sector_centre=heading + mount.yaw + sensor.sector_centre,
+            sector_width=sensor.sector_width,
         )
 
     def heard(self, marks: Bearings) -> Bearings:
@@ -136,7 +166,11 @@ class Sonar:
         return replace(twice, bearing=side * twice.bearing)
 
     def mark_sd(self, marks: Bearings) -> Floats:
-        """Return the sd of each mark (M,), the parameter's where the mark does not tell [rad]."""
+        """
+        Return the sd of each mark (M,) [rad].
+
+        As it tells, or else by the parameter, and raised where contacts' marks are scattered more.
+        """
         told = np.isfinite(marks.bearing_sd) & (marks.bearing_sd > 0.0)
         sd = np.where(told, marks.bearing_sd, self.config.bearing_sd * self._blur(marks.bearing))
-        return np.maximum(sd, self.config.bearing_sd_min)
+        return self.raised * np.maximum(sd, self.config.bearing_sd_min)

@@ -17,6 +17,7 @@ from msg_adapters.fans import Fans, to_fan_markers
 from msg_adapters.message_types import MessageTypes
 from msg_adapters.reading import Reading
 from sonar_tracker.config import SonarTrackerConfig
+from sonar_tracker.doubts import doubts
 from sonar_tracker.memory import recall, remember
 from sonar_tracker.sensor_config import MountConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
@@ -24,13 +25,11 @@ from tracking_core.batches import Bearings, Floats, Tracks
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
 from tracking_session.axes import check_axes, Warn
-from tracking_session.doubts import Doubt, noise_doubts, Told
+from tracking_session.doubts import Doubt
 from tracking_session.frames import TrackingFrame
 from tracking_session.ledger import Log
 from tracking_session.node_config import NodeConfig
 from tracking_session.session import Session
-
-_ADVICE = 'set it right, or tell with own ship how sure the heading is'
 
 
 def sonar_session(
@@ -62,12 +61,17 @@ class SonarInstrument:
     ) -> None:
         self.tracker = SonarTracker(config)
         self._overrides, self._types = vars(node_config.fields), types
-        self._tells_noise = False
+        self._tells_noise = self._is_true = False
 
     @property
     def is_mounted(self) -> bool:
         """Whether the mount is not the platform's origin."""
         return self.tracker.config.sensor.mount != MountConfig()
+
+    @property
+    def shares_stamps(self) -> bool:
+        """Whether a cycle comes in several messages."""
+        return self.tracker.config.scan.period > 0.0
 
     @property
     def reach(self) -> float:
@@ -77,7 +81,8 @@ class SonarInstrument:
     def read(self, msg: Any, mapping: Mapping[str, str]) -> Reading[Bearings]:
         """Return the marks of a message."""
         config = self.tracker.config
-        return to_bearings(msg, config.sensor, config.max_plots, self._overrides)
+        reading = to_bearings(msg, config.sensor, config.max_plots, self._overrides)
+        return replace(reading, note='') if self.shares_stamps else reading
 
     def moments(self, plots: Bearings) -> Floats:
         """Return the times (K,) [s] at which own ship must be known."""
@@ -92,17 +97,15 @@ class SonarInstrument:
         sensor = self.tracker.config.sensor
         if len(plots):
             self._tells_noise = bool(np.isfinite(plots.bearing_sd).any())
-        if frame.tells_true(sensor.azimuth_reference):
+        self._is_true = frame.tells_true(sensor.azimuth_reference)
+        if self._is_true:
             heading = pose_at(platform, plots.time).yaw + sensor.mount.yaw
             plots = replace(plots, bearing=wrap_angle(plots.bearing - heading))
         return self.tracker.track(plots, platform)
 
     def doubts(self) -> Iterator[Doubt]:
         """Yield what the marks say against the parameters."""
-        told = Told('bearing', 'sensor.bearing_sd', self.tracker.config.sensor.bearing_sd, 'rad')
-        if self._tells_noise:
-            told = told._replace(name='bearing_sd', sd=None)
-        return noise_doubts('marks', [told], self.tracker.state.scatter.ratio, _ADVICE)
+        return doubts(self.tracker, self._tells_noise, self._is_true)
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table."""

@@ -12,8 +12,10 @@ import numpy as np
 
 from sonar_tracker.build import build_setup
 from sonar_tracker.config import SonarTrackerConfig
+from sonar_tracker.cycles import Cycles
 from sonar_tracker.ranging import RangeEstimates, Ranging
 from sonar_tracker.sensor import Sonar
+from sonar_tracker.turn_check import TurnCheck
 from tracking_core.batches import Bearings, Coverage, Floats, Tracks
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
@@ -52,8 +54,11 @@ class SonarTracker:
         self.sonar = Sonar(self.config.sensor)
         self.core = Tracker(build_setup(self.config, self.sonar))
         self.core.reset(next_id)
+        period, most = self.config.scan.period, self.config.max_plots
+        self.cycles = Cycles(period, most) if period else None
         self.coverage = Coverage(0.0, 0.0)  # of the last cycle, in the tracking frame
         self.ranging = Ranging(self.config.ranging)
+        self.turns = TurnCheck()
         self.heard = -np.inf  # end of the newest cycle that told of ranges [s]
 
     @property
@@ -67,12 +72,12 @@ class SonarTracker:
 
     @property
     def turn_time(self) -> float:
-        """0: every message is a scan."""
-        return 0.0
+        """Time of a cycle of several messages [s], 0: every message is a cycle."""
+        return self.config.scan.period
 
     def save(self) -> tuple[Any, ...]:
         """Return what `restore` takes to go back to this moment: references, no copies of data."""
-        return self.config, self.sonar, copy(self.core), self.coverage
+        return self.config, self.sonar, copy(self.core), self.coverage, copy(self.cycles)
 
     def restore(self, memory: tuple[Any, ...]) -> None:
         """
@@ -80,8 +85,8 @@ class SonarTracker:
 
         What was learnt of ranges stays too: marks that come late do not count for it.
         """
-        config, self.sonar, tracker, self.coverage = memory
-        self.core = copy(tracker)
+        config, self.sonar, tracker, self.coverage, cycles = memory
+        self.core, self.cycles = copy(tracker), copy(cycles)
         if self.config != config:
             self.reconfigure(self.config)
 
@@ -138,7 +143,8 @@ class SonarTracker:
         Parameters
         ----------
         bearings : Bearings
-            All marks of the cycle; none is a cycle that heard nothing.
+            All marks of a cycle, none is one that heard nothing; with `scan.period` those of
+            one message, and the cycle before is followed where this begins another one.
         platform : Platform, optional
             Own ship in the tracking frame; without it the sonar stands at the origin.
 
@@ -153,14 +159,19 @@ class SonarTracker:
             If own ship is not known at the time of the marks.
 
         """
-        bearings = self.sonar.heard(bearings)
+        cycle = self.cycles.add(bearings) if self.cycles else bearings
+        if cycle is None:
+            return self.tracks
+        bearings = self.sonar.heard(cycle)
         times = bearings.time if len(bearings) else np.array([bearings.stamp])
         start, end = float(times.min()), float(times.max())
         pose = pose_at(platform, np.append(bearings.time, 0.5 * (start + end)))
-        self.coverage = self._listen(pose, start, end)
+        self.coverage = self.sonar.listen(take(pose, slice(-1, None)), start, end)
         at_marks = take(pose, slice(0, -1))
         self._expect(bearings, at_marks)
-        tracks = self.core.step(self.sonar.measure(bearings, at_marks, self.coverage))
+        scan = self.sonar.measure(bearings, at_marks, self.coverage)
+        self.turns.note(scan, self.coverage.sector_centre)
+        tracks = self.core.step(scan)
         if self.config.ranging.enabled and end > self.heard:
             self.heard = end
             self.ranging.add(tracks, self.coverage, self.sonar.heading_sd)
@@ -173,26 +184,10 @@ class SonarTracker:
     def _expect(self, bearings: Bearings, pose: PlatformPose) -> None:
         """Open the gates for marks as sure as they usually are, and the heading at its worst."""
         if len(bearings):
-            sd = self.sonar.mark_sd(bearings)[bearings.bearing_sd > 0.0]  # NaN: not told
+            sensor, raised = self.config.sensor, self.state.scatter.raised()[0]
+            sd = Sonar(sensor, raised=raised).mark_sd(bearings)
+            sd = sd[bearings.bearing_sd > 0.0]  # NaN: not told
             usual = float(np.median(sd)) if len(sd) else 0.0
-            self.sonar = Sonar(self.config.sensor, usual, float(np.sqrt(pose.yaw_variance.max())))
+            heading_sd = float(np.sqrt(pose.yaw_variance.max()))
+            self.sonar = Sonar(sensor, usual, heading_sd, raised)
             self.core.setup = self.core.setup.with_sensor(self.sonar)
-
-    def _listen(self, pose: PlatformPose, start: float, end: float) -> Coverage:
-        """Return what this cycle listens to, in the tracking frame; the last pose counts."""
-        sensor, mount = self.config.sensor, self.config.sensor.mount
-        heading = float(pose.yaw[-1])
-        cos, sin = np.cos(heading), np.sin(heading)
-        x, y, z = pose.position[-1]
-        return Coverage(
-            start_time=start,
-            end_time=end,
-            sensor_position=(
-                float(x + cos * mount.x - sin * mount.y),
-                float(y + sin * mount.x + cos * mount.y),
-                float(z),
-            ),
-            sensor_velocity=tuple(pose.velocity[-1].tolist()),
-            sector_centre=float(heading + mount.yaw + sensor.sector_centre),
-            sector_width=sensor.sector_width,
-        )

@@ -88,6 +88,10 @@ class Instrument(Protocol):
         """Return whether the user said where the sensor stands."""
 
     @property
+    def shares_stamps(self) -> bool:
+        """Return whether messages are parts of a scan that may have its stamp."""
+
+    @property
     def reach(self) -> float:
         """Return how far a coordinate may be where a user wants a track [m]."""
 

@@ -51,7 +51,7 @@ class Session:
     ) -> None:
         self.instrument = instrument
         self.ledger = Ledger(f'{instrument.topic} ownship acquire cancel', log.warning)
-        self.guard = StampGuard(node_config.time_jump_threshold)
+        self.guard = StampGuard(node_config.time_jump_threshold, instrument.shares_stamps)
         self.whereabouts = Whereabouts(node_config)
         self._history = History(instrument, node_config.scan.late, node_config.time_jump_threshold)
         self._node_config, self.types, self.log = node_config, types, log
@@ -96,9 +96,10 @@ class Session:
 
     def plots(self, msg: Any, received: float) -> Any | None:
         """
-        Return the track table after this message, None if it was refused or came late.
+        Return the track table after this message, None if it was refused, came late, or waits.
 
-        Late plots are used at their own time; the next table shows it. `NotYet` passes.
+        Late plots are used at their own time, parts of a scan when it is over; the next table
+        shows it. `NotYet` passes.
 
         Parameters
         ----------
@@ -132,11 +133,14 @@ class Session:
             return None
         if self._accept(plots.stamp, received):
             self._start_anew(f'time moved to {plots.stamp:.3f} (a recording that began anew?)')
+        before = self.instrument.tracker.state
         tracks = self._history.step(plots, platform, self.frame)
         self._tell_silent()
         self.ledger.doubt(self.instrument.doubts())
         self._use(reading)
         self.stamp = msg.header.stamp
+        if self.instrument.tracker.state is before:  # a part of a scan that is not over
+            return None
         last, self.published = self.published, tracks
         return self.instrument.to_table(last, self.header())
 

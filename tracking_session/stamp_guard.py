@@ -30,10 +30,13 @@ class StampGuard:
     ----------
     threshold : float
         A stamp may be so far off without being suspect [s].
+    repeats : bool
+        Whether messages that follow each other may have one stamp, as parts of one scan.
 
     """
 
     threshold: float
+    repeats: bool = False
     jumps: int = 0  # times that the clock truly moved
     silences: int = 0  # times that nothing came for longer than a stamp may be off
     _oldest: float | None = None  # stamp accepted first, None if that is not known
@@ -94,7 +97,8 @@ class StampGuard:
             return False
         step = stamp - self._newest
         late = received - self._received  # silence explains a gap
-        if 0.0 < step <= max(late, 0.0) + self._reach:
+        is_next = step > 0.0 or (self.repeats and step == 0.0)
+        if is_next and step <= max(late, 0.0) + self._reach:
             self.silences += step > self._reach
             self._take(stamp, received)
             return False
@@ -121,7 +125,7 @@ class StampGuard:
     def _take(self, stamp: float, received: float) -> None:
         if self._newest is None:
             self._oldest = stamp
-        if self._newest is not None and stamp - self._newest <= self._reach:
+        if self._newest is not None and 0.0 < stamp - self._newest <= self._reach:
             self._interval = stamp - self._newest  # a gap that silence explains is none
         self._newest, self._received = stamp, received
         self._strangers, self._moved = [], False

@@ -143,7 +143,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return STOPPED
     if not summary.tables:
         why = ', '.join(f'{reason} ({n})' for reason, n in summary.plots.refused.items())
-        print(f'replay: no message of {topics.plots} could be used: {why or "there is none"}',
+        why = why or ('no scan is over' if summary.plots.messages else 'there is none')
+        print(f'replay: no message of {topics.plots} could be used: {why}',
               file=sys.stderr)  # fmt: skip
         return 1
     return 0

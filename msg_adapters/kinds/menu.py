@@ -23,6 +23,7 @@ from msg_adapters.kinds.sonar_detections import sonar_detections
 from msg_adapters.table import Columns, to_columns
 
 POINT_CLOUD = 'sensor_msgs/PointCloud2'
+SINGLE = 'geometry_msgs/PoseWithCovarianceStamped'  # one plot a message
 
 
 class Kind(NamedTuple):
@@ -35,7 +36,7 @@ class Kind(NamedTuple):
 MENU = {
     'sensor_msgs/LaserScan': Kind(lambda msg: len(msg.ranges), laser_scan),
     'geometry_msgs/PoseArray': Kind(lambda msg: len(msg.poses), pose_array),
-    'geometry_msgs/PoseWithCovarianceStamped': Kind(lambda _: 1, pose_with_covariance),
+    SINGLE: Kind(lambda _: 1, pose_with_covariance),
     'radar_msgs/RadarScan': Kind(lambda msg: len(msg.returns), radar_scan),
     'vision_msgs/Detection3DArray': Kind(lambda msg: len(msg.detections), detections_3d),
     'marine_acoustic_msgs/SonarDetections': Kind(
@@ -73,6 +74,11 @@ def columns_of(msg: Any, max_rows: int) -> Columns:
     if rows > max_rows:
         raise BadMessage('too many rows', f'{name} has {rows} rows, limit {max_rows}')
     return kind.columns(msg)
+
+
+def is_single(msg: Any) -> bool:
+    """Return whether messages of this type have one plot each."""
+    return _name_of(type(msg)) == SINGLE
 
 
 def tells_unit(msg: Any) -> bool:

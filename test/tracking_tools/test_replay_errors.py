@@ -199,6 +199,17 @@ def test_replay_that_used_nothing_fails_also_when_quiet(tmp_path, capsys, plots_
     assert capsys.readouterr().err == f'replay: no message of /plots could be used: {why}\n'
 
 
+def test_recording_shorter_than_a_cycle_is_told_so(tmp_path, capsys, plots_message):
+    """Its messages are there, but what they are parts of is not over."""
+    with BagWriter(tmp_path / 'bag') as bag:
+        bag.announce('bearings', 'sensor_msgs/msg/PointCloud2')
+        for k in range(3):
+            bag.write('bearings', plots_message(100.0 + k, bearing=[0.1]), k)
+    words = [str(tmp_path / 'bag'), '--sensor', 'sonar', '--output', str(tmp_path / 'out')]
+    assert main([*words, '--quiet', '--set', 'scan.period=60']) == 1
+    assert capsys.readouterr().err.endswith('could be used: no scan is over\n')
+
+
 def test_directory_that_is_no_bag_is_told_so(tmp_path, capsys):
     """In words of a user, not of a library."""
     words = [str(tmp_path), '--sensor', 'radar', '--output', str(tmp_path / 'out')]
