@@ -9,15 +9,14 @@ They tell the second of the minute at most: the rest of the time is when they ca
 from __future__ import annotations
 
 from collections import Counter
-from functools import reduce
 from importlib import import_module
-from operator import xor
 from typing import Any
 
 import numpy as np
 
 from tracking_tools.feeds.report import polar_of, Report
 from tracking_tools.feeds.sources import lines_of
+from tracking_tools.feeds.tags import is_sound, sentence_of
 
 POSITIONS = (1, 2, 3, 18)  # message types
 DAMAGED = 'damaged sentence, or a part of one'
@@ -40,8 +39,9 @@ def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float
     """
     ais, reports = import_module('pyais'), []
     for line in lines_of(data, counts):
-        sentence = line[line.find('!') :]  # a block of tags may stand before it
-        if not _is_sound(sentence):
+        sentence = sentence_of(line, '!')
+        body, _, checksum = sentence[1:].partition('*')
+        if not is_sound(body, checksum[:2]):
             counts[DAMAGED] += 1
             continue
         if sentence[3:6] != 'VDM':  # VDO tells of own ship
@@ -58,12 +58,6 @@ def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float
         else:
             reports.append(report)
     return reports
-
-
-def _is_sound(sentence: str) -> bool:
-    """Return whether the checksum behind the * is there and right."""
-    body, _, told = sentence[1:].partition('*')
-    return told[:2].upper() == f'{reduce(xor, body.encode(), 0):02X}'
 
 
 def _to_report(message: Any, origin: tuple[float, float]) -> tuple[Report | None, str]:

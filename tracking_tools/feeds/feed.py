@@ -73,7 +73,8 @@ class Feed:
         """
         Return the next message, if this piece of data ends one; `now` [s] is when it came.
 
-        Reports without a time of their own have that one, and are left out without it.
+        Reports without a time of their own have that one, else that of their tags, and are left
+        out without either.
         """
         sent = filter(self._is_ours, self._read(data, self.counts))
         timed = [(self._time(report, now), report) for report in sent]
@@ -119,6 +120,7 @@ class Feed:
             yield last
 
     def _time(self, report: Report, now: float) -> float:
+        now = report.sent if np.isnan(now) else now
         if np.isfinite(report.time_of_day):
             return self.clock.time(report.time_of_day)
         if np.isfinite(report.second):
