@@ -3,7 +3,8 @@
 """
 Which position reports are in AIS sentences (VDM).
 
-They tell the second of the minute at most: the rest of the time is when they came.
+They tell the second of the minute at most: the rest of the time is when they came, or was
+recorded by the tags before them.
 """
 
 from __future__ import annotations
@@ -16,11 +17,12 @@ import numpy as np
 
 from tracking_tools.feeds.report import polar_of, Report
 from tracking_tools.feeds.sources import lines_of
-from tracking_tools.feeds.tags import is_sound, sentence_of
+from tracking_tools.feeds.tags import is_sound, sentence_of, time_of
 
-POSITIONS = (1, 2, 3, 18)  # message types
+POSITIONS = (1, 2, 3, 9, 18, 19)  # message types: ships of class A and B, aircraft that search
 DAMAGED = 'damaged sentence, or a part of one'
 NO_LATITUDE, NO_LONGITUDE, NO_SECOND = 91.0, 181.0, 60  # what is sent for 'not known'
+INOPERATIVE = 63  # instead of the second: the ship's receiver of positions does not work
 
 
 def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float]) -> list[Report]:
@@ -56,7 +58,7 @@ def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float
         if report is None:
             counts[why] += 1
         else:
-            reports.append(report)
+            reports.append(report._replace(sent=time_of(line)))
     return reports
 
 
@@ -67,7 +69,8 @@ def _to_report(message: Any, origin: tuple[float, float]) -> tuple[Report | None
     if None in told:  # a message that ends too early
         return None, DAMAGED
     latitude, longitude = float(message.lat), float(message.lon)
-    if abs(latitude) >= NO_LATITUDE or abs(longitude) >= NO_LONGITUDE:
+    is_known = abs(latitude) < NO_LATITUDE and abs(longitude) < NO_LONGITUDE
+    if not is_known or message.second == INOPERATIVE:
         return None, 'without a position'
     distance, azimuth = polar_of(latitude, longitude, origin)
     second = float(message.second) if message.second < NO_SECOND else np.nan

@@ -23,6 +23,7 @@ MINUTE = 60.0  # s
 AHEAD = 1.0 / 256.0  # s
 APART = 1e-6  # between stamps of messages whose first reports are of one time [s]
 _STAMPS, _REPORTS = 1000, 10_000  # that are remembered; a thousand of APART are less than AHEAD
+_CREDIBLE = 5.0  # as the age of a report that tells the second only [s]; some have wrong clocks
 _COPY = 5.0  # after a report another one that is all the same is its copy, live [s]
 
 
@@ -123,9 +124,10 @@ class Feed:
         now = report.sent if np.isnan(now) else now
         if np.isfinite(report.time_of_day):
             return self.clock.time(report.time_of_day)
-        if np.isfinite(report.second):
-            return now - (now - report.second + 0.5 * MINUTE) % MINUTE + 0.5 * MINUTE
-        return now
+        ago = (now - report.second + 0.5 * MINUTE) % MINUTE - 0.5 * MINUTE
+        if abs(ago) > _CREDIBLE:
+            self.counts['second unlike the time of arrival'] += 1
+        return now - ago if abs(ago) <= _CREDIBLE else now
 
     def _is_ours(self, report: Report) -> bool:
         self.source = report.source if self.source is None else self.source
