@@ -61,7 +61,7 @@ def _run(kind: Format, chosen: argparse.Namespace, ros: list[str]) -> int:
     feed = Feed(
         kind.reader(chosen), rclpy_types() if is_live else rosbags_types(), chosen.frame,
         reference, chosen.interval, getattr(chosen, 'radar', None),
-        getattr(chosen, 'doppler', False),
+        getattr(chosen, 'doppler', False), getattr(chosen, 'height', None) is not None,
     )  # fmt: skip
     if is_live:
         live = import_module('tracking_tools.feeds.node')  # needs rclpy

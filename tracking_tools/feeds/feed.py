@@ -18,6 +18,7 @@ from tracking_tools.feeds.report import Report
 Read = Callable[[bytes, Counter[str]], Sequence[Report]]
 Told = tuple[float, Any]  # time [s] and message (PointCloud2)
 MINUTE = 60.0  # s
+HEIGHT = ('elevation', 'elevation_sd')
 # Half of ASTERIX's unit of time, so much is a stamp before the first report: all plots then tell
 # times of their own, where one plot at the stamp of its message could be a sector without times.
 AHEAD = 1.0 / 256.0  # s
@@ -47,6 +48,8 @@ class Feed:
         Whose reports are used; without it those of the first.
     with_doppler : bool
         Whether the Doppler speed is told; its sign is not the same for all radars.
+    with_height : bool
+        Whether elevations are told, NaN where a plot has none.
 
     """
 
@@ -59,10 +62,12 @@ class Feed:
         interval: float = 0.0,
         source: tuple[int, int] | str | None = None,
         with_doppler: bool = False,
+        with_height: bool = False,
     ) -> None:
         self.counts: Counter[str] = Counter()
         self.clock, self.source, self._read = DayClock(reference), source, read
-        self._types, self._frame, self._with_doppler = types, frame, with_doppler
+        self._types, self._frame = types, frame
+        self._with_doppler, self._with_height = with_doppler, with_height
         self._interval = interval
         self.told = 0  # messages
         self._waiting: list[tuple[float, Report]] = []  # with their times [s]
@@ -169,6 +174,7 @@ class Feed:
             'time': np.array([time - stamp for time, _ in plots], np.float32),
             **({'amplitude': amplitude} if np.isfinite(amplitude).any() else {}),
             **({'range_rate': doppler} if self._with_doppler else {}),
+            **({name: column(name) for name in HEIGHT} if self._with_height else {}),
             'id': np.array([report.track for _, report in plots], np.uint32),
         }
 
