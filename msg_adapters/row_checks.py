@@ -92,7 +92,6 @@ def _polar_checks(plots: Plots) -> Iterator[Check]:
     yield 'range is negative', plots.range < 0.0
     yield f'azimuth {NO_NUMBER}', ~np.isfinite(plots.azimuth)
     yield 'azimuth beyond 2 pi', np.abs(plots.azimuth) > WIDEST
-    yield f'elevation {NO_NUMBER}', _partly_missing(plots.elevation)
     yield 'elevation beyond pi / 2 (degrees?)', np.abs(plots.elevation) > 0.51 * np.pi
 
 

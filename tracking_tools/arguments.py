@@ -43,6 +43,14 @@ def not_negative(text: str) -> float:
     return number
 
 
+def finite(text: str) -> float:
+    """Return a finite number."""
+    number = _number(text)
+    if not math.isfinite(number):
+        raise ArgumentTypeError(f'must be a number, got {text}')
+    return number
+
+
 def _number(text: str) -> float:
     try:
         return float(text)

@@ -177,7 +177,7 @@ def test_whole_number_time_is_nanoseconds(types):
         ('range', 5.0, 'range below range_min'),
         ('azimuth', np.nan, 'azimuth is not a number'),
         ('azimuth', 1e4, 'azimuth beyond 2 pi'),
-        ('elevation', np.nan, 'elevation is not a number'),
+        ('elevation', np.inf, 'elevation beyond'),
         ('elevation', 30.0, 'elevation beyond'),
         ('time', 3600.0, 'time more than 60 s off'),
         ('time', np.nan, 'time is not a number'),
@@ -192,6 +192,13 @@ def test_bad_row_is_dropped_and_counted(types, name, value, reason):
     ((said, count),) = reading.dropped.items()
     assert reason in said
     assert count == 1
+
+
+def test_plot_without_height_stays_beside_plots_that_have_one(types):
+    """A secondary radar hears a height or not, plot by plot."""
+    reading = to_plots(message(types, **POLAR, elevation=[0.1, np.nan]), Sensor(), 9)
+    np.testing.assert_allclose(reading.plots.elevation, [0.1, np.nan])
+    assert not reading.dropped
 
 
 def test_elevation_of_nan_throughout_is_not_measured(types):

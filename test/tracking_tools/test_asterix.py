@@ -19,7 +19,7 @@ from tracking_tools.asterix.__main__ import main
 from tracking_tools.asterix.blocks import blocks_of_file, MOST, read_reports
 from tracking_tools.bags import open_bag
 from tracking_tools.feeds.clock import DAY, DayClock
-from tracking_tools.feeds.feed import Feed
+from tracking_tools.feeds.feed import AHEAD, Feed
 
 ROOT = Path(__file__).parents[2]
 generated = pytest.importorskip('asterix.generated')
@@ -140,7 +140,7 @@ def test_wrong_times_do_not_move_the_day():
     for step in range(60):
         now = 1e4 + 4.0 * step
         told = feed.take(block(plot(now)))
-        assert told[0] == 10.0 * DAY + now
+        assert told[0] == pytest.approx(10.0 * DAY + now - AHEAD, abs=1e-5)
         feed.take(block(*(plot((now + 29e3 * (n + 1)) % DAY, **o) for n, o in enumerate(others))))
         if step % 20 == 10:
             feed.take(block(plot((now + 2e3 * step) % DAY)))
@@ -149,12 +149,12 @@ def test_wrong_times_do_not_move_the_day():
 def test_feed_follows_one_radar_and_marks_are_looks_without_plots():
     """A sector in which nothing was seen is a message without rows; other radars are counted."""
     feed = Feed(read_reports, rosbags_types(), 'radar', 10.0 * DAY)
-    assert feed.take(mark(100.0))[0] == 10.0 * DAY + 100.0
+    assert feed.take(mark(100.0))[0] == 10.0 * DAY + 100.0 - AHEAD
     other = plot(1.0, **{'010': (('SAC', 1), ('SIC', 1))})
     assert feed.take(block(other)) is None
     stamp, msg = feed.take(block(plot(101.0), plot(102.5)) + mark(100.5))
-    assert stamp == 10.0 * DAY + 100.5
-    np.testing.assert_allclose(to_columns(msg, 9)['time'], [0.5, 2.0])
+    assert stamp == 10.0 * DAY + 100.5 - AHEAD
+    np.testing.assert_allclose(to_columns(msg, 9)['time'] - AHEAD, [0.5, 2.0])
     assert feed.counts == {'plots': 2, 'from another source': 1}
 
 
@@ -167,7 +167,7 @@ def test_file_becomes_a_bag_that_a_replay_reads(tmp_path, capsys):
     with open_bag(bag) as recorded:
         stamps = [time_ns / 1e9 for _, time_ns, _ in recorded.messages()]
     midnight = datetime(2026, 3, 2, tzinfo=timezone.utc).timestamp()
-    np.testing.assert_allclose(np.array(stamps) - midnight, [-4.0, 0.0, 4.0], atol=1e-6)
+    np.testing.assert_allclose(np.array(stamps) - midnight + AHEAD, [-4.0, 0.0, 4.0], atol=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -3,25 +3,26 @@
 """
 Which position reports are in AIS sentences (VDM).
 
-They tell the second of the minute at most: the rest of the time is when they came.
+They tell the second of the minute at most: the rest of the time is when they came, or was
+recorded by the tags before them.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from functools import reduce
 from importlib import import_module
-from operator import xor
 from typing import Any
 
 import numpy as np
 
 from tracking_tools.feeds.report import polar_of, Report
 from tracking_tools.feeds.sources import lines_of
+from tracking_tools.feeds.tags import is_sound, sentence_of, time_of
 
-POSITIONS = (1, 2, 3, 18)  # message types
+POSITIONS = (1, 2, 3, 9, 18, 19)  # message types: ships of class A and B, aircraft that search
 DAMAGED = 'damaged sentence, or a part of one'
 NO_LATITUDE, NO_LONGITUDE, NO_SECOND = 91.0, 181.0, 60  # what is sent for 'not known'
+INOPERATIVE = 63  # instead of the second: the ship's receiver of positions does not work
 
 
 def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float]) -> list[Report]:
@@ -40,8 +41,9 @@ def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float
     """
     ais, reports = import_module('pyais'), []
     for line in lines_of(data, counts):
-        sentence = line[line.find('!') :]  # a block of tags may stand before it
-        if not _is_sound(sentence):
+        sentence = sentence_of(line, '!')
+        body, _, checksum = sentence[1:].partition('*')
+        if not is_sound(body, checksum[:2]):
             counts[DAMAGED] += 1
             continue
         if sentence[3:6] != 'VDM':  # VDO tells of own ship
@@ -56,14 +58,8 @@ def read_positions(data: bytes, counts: Counter[str], origin: tuple[float, float
         if report is None:
             counts[why] += 1
         else:
-            reports.append(report)
+            reports.append(report._replace(sent=time_of(line)))
     return reports
-
-
-def _is_sound(sentence: str) -> bool:
-    """Return whether the checksum behind the * is there and right."""
-    body, _, told = sentence[1:].partition('*')
-    return told[:2].upper() == f'{reduce(xor, body.encode(), 0):02X}'
 
 
 def _to_report(message: Any, origin: tuple[float, float]) -> tuple[Report | None, str]:
@@ -73,7 +69,8 @@ def _to_report(message: Any, origin: tuple[float, float]) -> tuple[Report | None
     if None in told:  # a message that ends too early
         return None, DAMAGED
     latitude, longitude = float(message.lat), float(message.lon)
-    if abs(latitude) >= NO_LATITUDE or abs(longitude) >= NO_LONGITUDE:
+    is_known = abs(latitude) < NO_LATITUDE and abs(longitude) < NO_LONGITUDE
+    if not is_known or message.second == INOPERATIVE:
         return None, 'without a position'
     distance, azimuth = polar_of(latitude, longitude, origin)
     second = float(message.second) if message.second < NO_SECOND else np.nan

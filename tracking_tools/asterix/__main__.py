@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import sys
 from typing import Any
 
+from tracking_tools.arguments import finite
 from tracking_tools.asterix.blocks import blocks_of_file, is_available, loaded_reader
 from tracking_tools.feeds.command import Format, run
 from tracking_tools.stopping import stoppable
@@ -22,6 +23,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _options(add: Any) -> None:
     add('--radar', type=_radar, metavar='SAC/SIC', help='default: that of the first report')
+    add('--height', type=finite, metavar='METRES', help='of the radar above the sea: plots with '
+        'a flight level or a height are 3-D')  # fmt: skip
     add('--doppler', action='store_true', help='publish the Doppler speed as range_rate; mind '
         'sensor.range_rate_sign')  # fmt: skip
 
@@ -37,7 +40,7 @@ ASTERIX = Format(
     name='asterix',
     library='libasterix',
     is_available=is_available,
-    reader=lambda _: loaded_reader(),
+    reader=lambda chosen: loaded_reader(chosen.height),
     chunks=blocks_of_file,
     add_options=_options,
 )

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -20,6 +20,8 @@ from typing import Any
 
 import numpy as np
 
+from tracking_tools.asterix.heights import elevation_of
+from tracking_tools.asterix.items import number, optional, part, quantity
 from tracking_tools.feeds.clock import DAY
 from tracking_tools.feeds.report import NAUTICAL_MILE, Report
 
@@ -70,7 +72,7 @@ def blocks_of_file(path: Path, counts: Counter[str]) -> Iterator[bytes]:
         yield bytes([category]) + (len(body) + HEADER).to_bytes(2, 'big') + body
 
 
-def read_reports(data: bytes, counts: Counter[str]) -> list[Report]:
+def read_reports(data: bytes, counts: Counter[str], height: float | None = None) -> list[Report]:
     """
     Return the plots and antenna marks in a chain of data blocks.
 
@@ -80,6 +82,8 @@ def read_reports(data: bytes, counts: Counter[str]) -> list[Report]:
         One datagram, or a part of a file.
     counts : Counter
         By reason, what was left out.
+    height : float, optional
+        Of the radar above the sea [m]; heights of plots become elevations with it.
 
     """
     reports = []
@@ -87,7 +91,7 @@ def read_reports(data: bytes, counts: Counter[str]) -> list[Report]:
         if category not in (PLOTS, SERVICE):
             counts[f'category {category}'] += 1
             continue
-        to_report = _to_plot if category == PLOTS else _to_mark
+        to_report = partial(_to_plot, height=height) if category == PLOTS else _to_mark
         for record in _records(category, body, counts):
             report, why = to_report(record)
             if report is None:
@@ -105,10 +109,10 @@ def is_available() -> bool:
         return False
 
 
-def loaded_reader() -> Callable[[bytes, Counter[str]], list[Report]]:
+def loaded_reader(height: float | None = None) -> Callable[[bytes, Counter[str]], list[Report]]:
     """Return `read_reports` with its library loaded, so that the first datagram need not wait."""
     _library()
-    return read_reports
+    return partial(read_reports, height=height)
 
 
 @cache
@@ -136,28 +140,32 @@ def _records(category: int, body: bytes, counts: Counter[str]) -> Iterator[Any]:
     counts[f'records beyond {MOST} of a block'] += 1
 
 
-def _to_plot(record: Any) -> tuple[Report | None, str]:
+def _to_plot(record: Any, height: float | None) -> tuple[Report | None, str]:
     """Return the plot, or None and why it is none."""
     kind = record.get_item('020')
-    if kind is not None and _number(kind, 'TYP') == NO_DETECTION:
+    if kind is not None and number(kind, 'TYP') == NO_DETECTION:
         return None, 'no detection'
-    if kind is not None and (_number(kind, 'SIM') or _number(kind, 'TST')):
+    if kind is not None and (number(kind, 'SIM') or number(kind, 'TST')):
         return None, 'simulated or test target'
     source, time, place = (record.get_item(name) for name in ('010', '140', '040'))
     if source is None or time is None or place is None:
         return None, 'without source, time or position'
-    if _quantity(time, 's') >= DAY:
+    if quantity(time, 's') >= DAY:
         return None, 'time beyond the day'
-    theta = _quantity(_part(place, 'THETA'), '°')
+    theta = quantity(part(place, 'THETA'), '°')
+    distance = quantity(part(place, 'RHO'), 'NM') * NAUTICAL_MILE
+    elevation, elevation_sd = elevation_of(record, distance, height)
     track = record.get_item('161')
     report = Report(
-        source=(_number(source, 'SAC'), _number(source, 'SIC')),
-        time_of_day=_quantity(time, 's'),
-        range=_quantity(_part(place, 'RHO'), 'NM') * NAUTICAL_MILE,
+        source=(number(source, 'SAC'), number(source, 'SIC')),
+        time_of_day=quantity(time, 's'),
+        range=distance,
         azimuth=np.pi / 2.0 - np.radians(theta),
-        doppler=_optional(record, '120', ('CAL', 'CAL'), 'm/s'),
-        amplitude=_optional(record, '130', ('PAM',), 'dBm'),
-        track=0 if track is None else _number(track, 'TRN'),
+        doppler=optional(record, '120', ('CAL', 'CAL'), 'm/s'),
+        amplitude=optional(record, '130', ('PAM',), 'dBm'),
+        track=0 if track is None else number(track, 'TRN'),
+        elevation=elevation,
+        elevation_sd=elevation_sd,
     )
     return report, ''
 
@@ -167,27 +175,6 @@ def _to_mark(record: Any) -> tuple[Report | None, str]:
     source, kind, time = (record.get_item(name) for name in ('010', '000', '030'))
     if source is None or time is None or kind is None or kind.as_uint() not in _MARKS:
         return None, 'service message without antenna'
-    if _quantity(time, 's') >= DAY:
+    if quantity(time, 's') >= DAY:
         return None, 'time beyond the day'
-    return Report((_number(source, 'SAC'), _number(source, 'SIC')), _quantity(time, 's')), ''
-
-
-def _part(item: Any, *names: str) -> Any:
-    """Return an item inside an item, None where it was not sent."""
-    for name in names:
-        item = None if item is None else item.variation.get_item(name)
-    return item
-
-
-def _number(item: Any, name: str) -> int:
-    part = _part(item, name)
-    return 0 if part is None else int(part.as_uint())
-
-
-def _quantity(item: Any, unit: str) -> float:
-    return float(item.variation.content.as_quantity(unit))
-
-
-def _optional(record: Any, name: str, parts: tuple[str, ...], unit: str) -> float:
-    item = _part(record.get_item(name), *parts)
-    return np.nan if item is None else _quantity(item, unit)
+    return Report((number(source, 'SAC'), number(source, 'SIC')), quantity(time, 's')), ''

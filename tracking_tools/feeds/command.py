@@ -17,6 +17,7 @@ from typing import Any
 
 from msg_adapters.message_types import rclpy_types, rosbags_types
 from tracking_tools.arguments import day, not_negative, positive
+from tracking_tools.feeds.captures import datagrams_of_capture, is_capture
 from tracking_tools.feeds.feed import describe, Feed, Read
 from tracking_tools.feeds.sources import open_udp
 
@@ -61,16 +62,22 @@ def _run(kind: Format, chosen: argparse.Namespace, ros: list[str]) -> int:
     feed = Feed(
         kind.reader(chosen), rclpy_types() if is_live else rosbags_types(), chosen.frame,
         reference, chosen.interval, getattr(chosen, 'radar', None),
-        getattr(chosen, 'doppler', False),
+        getattr(chosen, 'doppler', False), getattr(chosen, 'height', None) is not None,
     )  # fmt: skip
     if is_live:
         live = import_module('tracking_tools.feeds.node')  # needs rclpy
-        chunks = open_udp(chosen.source) if is_udp else kind.chunks(path, feed.counts)
+        chunks = open_udp(chosen.source) if is_udp else _chunks(kind, path, feed.counts)
         live.publish(kind.name, feed, chunks, ros, chosen.rate)
         return 0 if is_udp or feed.told else 1
-    _write_bag(feed, kind.chunks(path, feed.counts), path, chosen.bag)
+    _write_bag(feed, _chunks(kind, path, feed.counts), path, chosen.bag)
     print(f'{chosen.bag}: {describe(feed)}')
     return 0
+
+
+def _chunks(kind: Format, path: Path, counts: Counter[str]) -> Iterator[bytes]:
+    """Return the datagrams of a capture, the parts of any other file."""
+    chunks = datagrams_of_capture if is_capture(path) else kind.chunks
+    return chunks(path, counts)
 
 
 def _write_bag(feed: Feed, chunks: Iterator[bytes], path: Path, bag: Path) -> None:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
@@ -18,6 +18,14 @@ from tracking_tools.feeds.report import Report
 Read = Callable[[bytes, Counter[str]], Sequence[Report]]
 Told = tuple[float, Any]  # time [s] and message (PointCloud2)
 MINUTE = 60.0  # s
+HEIGHT = ('elevation', 'elevation_sd')
+# Half of ASTERIX's unit of time, so much is a stamp before the first report: all plots then tell
+# times of their own, where one plot at the stamp of its message could be a sector without times.
+AHEAD = 1.0 / 256.0  # s
+APART = 1e-6  # between stamps of messages whose first reports are of one time [s]
+_STAMPS, _REPORTS = 1000, 10_000  # that are remembered; a thousand of APART are less than AHEAD
+_CREDIBLE = 5.0  # as the age of a report that tells the second only [s]; some have wrong clocks
+_COPY = 5.0  # after a report another one that is all the same is its copy, live [s]
 
 
 class Feed:
@@ -40,6 +48,8 @@ class Feed:
         Whose reports are used; without it those of the first.
     with_doppler : bool
         Whether the Doppler speed is told; its sign is not the same for all radars.
+    with_height : bool
+        Whether elevations are told, NaN where a plot has none.
 
     """
 
@@ -52,24 +62,29 @@ class Feed:
         interval: float = 0.0,
         source: tuple[int, int] | str | None = None,
         with_doppler: bool = False,
+        with_height: bool = False,
     ) -> None:
         self.counts: Counter[str] = Counter()
         self.clock, self.source, self._read = DayClock(reference), source, read
-        self._types, self._frame, self._with_doppler = types, frame, with_doppler
+        self._types, self._frame = types, frame
+        self._with_doppler, self._with_height = with_doppler, with_height
         self._interval = interval
         self.told = 0  # messages
         self._waiting: list[tuple[float, Report]] = []  # with their times [s]
         self._since = np.nan  # when the first of these came [s]
+        self._begun: deque[float] = deque(maxlen=_STAMPS)  # first reports of messages [s]
+        self._heard: dict[tuple[float, str], float] = {}  # when reports came [s], oldest first
 
     def take(self, data: bytes, now: float = np.nan) -> Told | None:
         """
         Return the next message, if this piece of data ends one; `now` [s] is when it came.
 
-        Reports without a time of their own have that one, and are left out without it.
+        Reports without a time of their own have that one, else that of their tags, and are left
+        out without either.
         """
         sent = filter(self._is_ours, self._read(data, self.counts))
         timed = [(self._time(report, now), report) for report in sent]
-        ours = [(time, report) for time, report in timed if self._has(time)]
+        ours = [told for told in timed if self._has(told[0]) and self._is_new(*told, now)]
         if not self._interval:
             self._waiting += ours
             return self.flush()
@@ -93,7 +108,7 @@ class Feed:
         newest = _newest(self._waiting)
         if len(newest) < len(self._waiting):
             self.counts['told again within a message'] += len(self._waiting) - len(newest)
-        stamp = min(time for time, _ in newest)
+        stamp = self._stamp(min(time for time, _ in newest))
         plots = [(time, r) for time, r in newest if np.isfinite(r.range)]
         self._waiting = []
         self.counts['plots'] += len(plots)
@@ -111,11 +126,13 @@ class Feed:
             yield last
 
     def _time(self, report: Report, now: float) -> float:
+        now = report.sent if np.isnan(now) else now
         if np.isfinite(report.time_of_day):
             return self.clock.time(report.time_of_day)
-        if np.isfinite(report.second):
-            return now - (now - report.second + 0.5 * MINUTE) % MINUTE + 0.5 * MINUTE
-        return now
+        ago = (now - report.second + 0.5 * MINUTE) % MINUTE - 0.5 * MINUTE
+        if abs(ago) > _CREDIBLE:
+            self.counts['second unlike the time of arrival'] += 1
+        return now - ago if abs(ago) <= _CREDIBLE else now
 
     def _is_ours(self, report: Report) -> bool:
         self.source = report.source if self.source is None else self.source
@@ -128,6 +145,24 @@ class Feed:
             self.counts['without a time'] += 1
         return bool(np.isfinite(time))
 
+    def _is_new(self, time: float, report: Report, now: float) -> bool:
+        """Return whether this is no copy: receivers and networks are often doubled."""
+        told = (round(time, 3), repr(report))
+        if told in self._heard and not now - self._heard[told] > _COPY:
+            self.counts['told twice'] += 1
+            return False
+        self._heard[told] = now
+        if len(self._heard) > _REPORTS:
+            del self._heard[next(iter(self._heard))]
+        return True
+
+    def _stamp(self, first: float) -> float:
+        """Return a stamp for a message, no other one's, by the time of its first report [s]."""
+        moment = round(first, 3)
+        same = self._begun.count(moment)
+        self._begun.append(moment)
+        return first - AHEAD + same * APART
+
     def _columns(self, plots: Sequence[tuple[float, Report]], stamp: float) -> dict[str, Any]:
         def column(name: str) -> Any:
             return np.array([getattr(report, name) for _, report in plots], np.float32)
@@ -139,6 +174,7 @@ class Feed:
             'time': np.array([time - stamp for time, _ in plots], np.float32),
             **({'amplitude': amplitude} if np.isfinite(amplitude).any() else {}),
             **({'range_rate': doppler} if self._with_doppler else {}),
+            **({name: column(name) for name in HEIGHT} if self._with_height else {}),
             'id': np.array([report.track for _, report in plots], np.uint32),
         }
 

@@ -25,6 +25,9 @@ class Report(NamedTuple):
     amplitude: float = np.nan  # [dBm]
     track: int = 0  # number that the sender gives, 0: none
     second: float = np.nan  # of the minute, where that is all that is told of the time [s]
+    elevation: float = np.nan  # [rad], NaN: not told, as its sd
+    elevation_sd: float = np.nan  # [rad]
+    sent: float = np.nan  # by whoever recorded or passed it on, since the epoch [s]
 
 
 def polar_of(

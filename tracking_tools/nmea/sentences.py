@@ -17,6 +17,7 @@ import numpy as np
 
 from tracking_tools.feeds.report import NAUTICAL_MILE, polar_of, Report
 from tracking_tools.feeds.sources import lines_of
+from tracking_tools.feeds.tags import sentence_of, time_of
 
 UNITS = {'N': NAUTICAL_MILE, 'K': 1000.0, 'S': 1609.344}  # m
 LOST = 'L'  # status of a target
@@ -45,7 +46,7 @@ def read_sentences(
     nmea, reports = import_module('pynmea2'), []
     for line in lines_of(data, counts):
         try:
-            sentence = nmea.parse(line, check=True)
+            sentence = nmea.parse(sentence_of(line, '$'), check=True)
             report, why = _to_report(sentence, origin, relative)
         except nmea.SentenceTypeError:
             report, why = None, 'another sentence'
@@ -54,7 +55,7 @@ def read_sentences(
         if report is None:
             counts[why] += 1
         else:
-            reports.append(report)
+            reports.append(report._replace(sent=time_of(line)))
     return reports
 
 
