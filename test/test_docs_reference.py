@@ -188,6 +188,8 @@ def lines_of_sessions():
     use(odometry=leap)
     use(odometry=[own_ship(90.0, yaw_variance=99999.0)])
     use(odometry=[own_ship(90.0 + step, x=8.0 * step) for step in range(40)])
+    reset = [own_ship(90.0 + 0.1 * k, yaw=0.2 * (k >= 50)) for k in range(100)]
+    use(odometry=reset)
     turns = [message(100.0 + step, range=[1e3, 2e3], azimuth=[0.1, 2.0]) for step in range(9)]
     use(*turns, odometry=[own_ship(90.0 + step, yaw=0.02 * step) for step in range(20)])
     return said

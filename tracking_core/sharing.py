@@ -7,7 +7,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import expit
 
 from tracking_core.association.partitions import has_alternatives, over_partitions
 from tracking_core.batches import Association, Bools, Floats, Scan
@@ -68,21 +67,19 @@ def share_plots(
     track = gated.pairs.track
     if common is not None:
         existence = np.where(_is_heard(gated, common), common.existence_apart, existence)
-    # What is taken for certain is judged as if all tracks exist: new ones would never get a plot.
-    chance = existence if setup.is_soft else np.ones(len(existence))
-    weight = log(detection_probability * chance)[track] + gated.log_likelihood
-    weight = weight - np.log(_other_sources(gated, scan, setup, density))
+    own = log(detection_probability * existence)[track] + gated.log_likelihood
+    own = own - np.log(_other_sources(gated, scan, setup, density))
+    # A hard association gives a plot to a track, exists it or not: new ones would never get one.
+    weight = own if setup.is_soft else np.logaddexp(own, log(1.0 - existence)[track])
     detection = detection_probability * setup.gate_probability
-    log_miss = np.log1p(-detection * chance)
+    log_miss = np.log1p(-detection * existence)
     hidden = np.zeros(len(existence))
     if common is None:
         shared = setup.associate(track, gated.pairs.plot, weight, log_miss, len(scan))
     else:
         shared, hidden = _share_in_common(gated, weight, log_miss, scan, setup, density, common)
 
-    odds = log(existence) - log(1.0 - existence)
-    exists = 1.0 if setup.is_soft else expit(weight + odds[track])
-    claim = shared.probability * exists
+    claim = shared.probability if setup.is_soft else shared.probability * np.exp(own - weight)
     found = sum_by_track(claim, track, len(existence)) + hidden
     posterior, missed = existence_after(existence, shared.miss, found, detection)
     safe = np.maximum(posterior, TINY)

@@ -115,7 +115,7 @@ class Tracker:
             held=take(scan, seen.waiting) if seen.waiting.any() else None,
             next_id=state.next_id + len(fitting),
             clutter=learn_clutter(state, scan, seen, born.used, kept, self.setup),
-            scatter=state.scatter.learn(seen.owner, scan, interval, self.setup.sensor.space),
+            scatter=self._scatter(state, scan, seen, interval),
             leniency=born.leniency,
             time=max(scan.coverage.end_time, state.time),
             steps=steps,
@@ -180,6 +180,11 @@ class Tracker:
             seen.tracks, seen.passed, merge, self.setup.sensor.space, is_unresolved
         )
         return take(living, ~doubled), living.id[doubled]
+
+    def _scatter(self, state: State, scan: Scan, seen: Look, interval: float) -> Scatter:
+        """Return what is known of the noise of plots after this scan."""
+        space, speed = self.setup.sensor.space, self.setup.initiation.speed_max
+        return state.scatter.learn(seen.owner, scan, interval, space, speed)
 
     def _density(self, state: State, scan: Scan, interval: float) -> Density:
         """Return the sources of other plots, per unit of plot space and look."""

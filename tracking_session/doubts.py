@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from tracking_core.batches import Floats
-from tracking_core.scatter import BELIEVED
+from tracking_core.bends import BELIEVED
 
 
 class Doubt(NamedTuple):

@@ -4,8 +4,7 @@
 What is done with each message, without a ROS graph and whatever the sensor.
 
 The node hands over what it receives and publishes what comes back, as a replay does with those of
-a bag. Whatever a message contains, the worst that happens is a refusal, counted and said. What a
-user orders is in ``orders.py``.
+a bag. Whatever it contains, the worst is a refusal, counted and said. Orders are in ``orders.py``.
 """
 
 from __future__ import annotations
@@ -20,6 +19,7 @@ from msg_adapters.reading import Reading
 from tracking_core.batches import Tracks
 from tracking_core.platform import StalePlatform
 from tracking_session.frames import TrackingFrame
+from tracking_session.heading_guard import HeadingGuard
 from tracking_session.history import History
 from tracking_session.input_count import InputCount
 from tracking_session.instrument import Instrument
@@ -52,7 +52,7 @@ class Session:
         self.instrument = instrument
         self.ledger = Ledger(f'{instrument.topic} ownship acquire cancel', log.warning)
         self.guard = StampGuard(node_config.time_jump_threshold, instrument.shares_stamps)
-        self.whereabouts = Whereabouts(node_config)
+        self.whereabouts, self._heading = Whereabouts(node_config), HeadingGuard()
         self._history = History(instrument, node_config.scan.late, node_config.time_jump_threshold)
         self._node_config, self.types, self.log = node_config, types, log
         self.published = instrument.tracker.tracks
@@ -60,7 +60,7 @@ class Session:
 
     def _forget(self) -> None:
         """Be as after a start, but for the tracks that must be reported as deleted."""
-        for known in (self._history, self.guard, self.whereabouts):
+        for known in (self._history, self.guard, self.whereabouts, self._heading):
             known.reset()
         name = frame_name(self._node_config.tracking_frame)
         self.frame = TrackingFrame(name, self.instrument.is_mounted, self.log.info)
@@ -186,11 +186,11 @@ class Session:
         """Take one odometry of the platform."""
         try:
             sample = to_platform(msg, partial(self.ledger.unused, 'ownship'))
-            frame, time = frame_of(msg), float(sample.time[0])
-            appeared = self.frame.check_ownship(frame, time)
+            appeared = self.frame.check_ownship(frame_of(msg), float(sample.time[0]))
             if self.whereabouts.take(sample, received) or appeared:
                 self._start_anew('own ship appeared' if appeared else 'own ship is elsewhere')
             self.ledger.doubt(self.whereabouts.doubts())
+            self._heading.take(sample, self.ledger.fail)
         except BadMessage as error:
             self.ledger.refuse('ownship', error.reason, error)
 

@@ -12,11 +12,21 @@ import pytest
 
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.tracker import RadarTracker
-from tracking_core.association import ASSOCIATORS
+from tracking_core.association import ASSOCIATORS, DECIDING
 from tracking_core.batches import Plots, Tracks
 from tracking_core.config import with_values
+from tracking_core.rows import change
 
 PLACES = np.array([[9_000.0, 4_000.0], [9_000.0, 4_000.0], [9_050.0, 4_040.0], [9_050.0, 4_040.0]])
+
+
+SITE = {
+    'scan.assembly': 'snapshot',
+    'sensor.position_sd': 20.0,
+    'sensor.range_rate_sd': 1.0,
+    'initiation.speed_max': 150.0,
+    'clutter_density': 1e-7,
+}
 
 
 def followed(looks: int, rates=(), before_last: float | None = None, **values: object) -> Tracks:
@@ -25,14 +35,7 @@ def followed(looks: int, rates=(), before_last: float | None = None, **values: o
 
     The last ones have `rates`; the existence probability before the last look may be given.
     """
-    site = {
-        'scan.assembly': 'snapshot',
-        'sensor.position_sd': 20.0,
-        'sensor.range_rate_sd': 1.0,
-        'initiation.speed_max': 150.0,
-        'clutter_density': 1e-7,
-        **values,
-    }
+    site = {**SITE, **values}
     tracker = RadarTracker(with_values(RadarTrackerConfig(), site))
     known = [np.nan] * (looks - len(rates)) + list(rates)
     for number, (place, rate) in enumerate(zip(PLACES[:looks], known, strict=True)):
@@ -72,3 +75,19 @@ def test_range_rate_that_fits_proves_more_than_a_place_alone() -> None:
     assert r < 0.9
     # The density of false range rates halves where they may be twice as large.
     assert w / (1.0 - w) == pytest.approx(2.0 * s / (1.0 - s), rel=0.05)
+
+
+@pytest.mark.parametrize('association', DECIDING)
+@pytest.mark.parametrize(('existence', 'owner'), [(0.05, 1), (0.9999, 2)])
+def test_doubtful_track_takes_no_plot_from_a_sure_one(association, existence, owner) -> None:
+    """Of two tracks beside a plot the nearer one has it, unless its contact hardly exists."""
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), {**SITE, 'association': association}))
+    place = np.array([9_000.0, 4_000.0, 0.0])
+    tracker.track(replace(Plots.cartesian(np.zeros(1), place[None, :2]), stamp=0.0))
+    for off in (-15.0, 12.0):
+        tracker.start_track(place + np.array([off, 0.0, 0.0]), 0.0)
+    sure, other = np.array([0.9999]), np.array([existence])
+    tracks = change(tracker.tracks, existence_probability=np.concatenate([sure, other]))
+    tracker.state = replace(tracker.state, tracks=tracks)
+    tracks = tracker.track(replace(Plots.cartesian(np.full(1, 4.0), place[None, :2]), stamp=4.0))
+    assert tracks.id[tracks.misses == 0].tolist() == [owner]

@@ -49,7 +49,7 @@ def learnt(times, contacts=5, looks=60, seed=1):
         covariance = np.einsum('ka,kad,kae->kde', sd**2, axes, axes)
         noise = np.einsum('ka,kad->kd', sd * times * rng.normal(size=sd.shape), axes)
         scan = scan_of(np.full(contacts, 4.0 * look), place + noise, covariance)
-        scatter = scatter.learn(ids, scan, 4.0, POINTS)
+        scatter = scatter.learn(ids, scan, 4.0, POINTS, 300.0)
     return scatter
 
 
@@ -65,9 +65,11 @@ def bends_of(time, position, noise, space=POINTS, raised=(1.0, 1.0, 1.0)):
     scatter, seven = Scatter.none(len(position[0])), np.array([7])
     for t, place in zip(time, position, strict=True):
         scan = replace(scan_of(np.array([t]), place[None], noise), raised=raised)
-        scatter = scatter.learn(seven, scan, 100.0, space)
+        scatter = scatter.learn(seven, scan, 100.0, space, 300.0)
     later = scan_of(np.array([1000.0]), place[None], noise)
-    return scatter.learn(np.zeros(1, int), replace(later, raised=raised), 1.0, space).bends.size
+    return scatter.learn(
+        np.zeros(1, int), replace(later, raised=raised), 1.0, space, 300.0
+    ).bends.size
 
 
 def test_ratio_is_that_of_the_noise_on_each_axis():
@@ -116,7 +118,7 @@ def test_plots_of_two_tracks_make_no_bend():
     scatter = Scatter.none(2)
     for time, owner in enumerate((3, 5, 3, 5)):
         scan = scan_of(np.array([float(time)]), np.array([[5e3, 0.0]]), np.eye(2)[None])
-        scatter = scatter.learn(np.array([owner]), scan, 0.3, POINTS)
+        scatter = scatter.learn(np.array([owner]), scan, 0.3, POINTS, 300.0)
     assert scatter.began > 0.0  # it has learnt meanwhile
     assert len(scatter.bends.track) == 0
 
@@ -133,8 +135,10 @@ def test_it_rests_once_it_knows_enough_and_goes_on_to_learn():
     scatter = learnt(np.ones(3), looks=80)
     assert scatter.until > -np.inf
     one = np.ones(1, int)
-    assert scatter.learn(one, scan_of(*nowhere(scatter.until - 1.0)), 4.0, POINTS) is scatter
-    later = scatter.learn(one, scan_of(*nowhere(scatter.until + 1.0)), 4.0, POINTS)
+    assert (
+        scatter.learn(one, scan_of(*nowhere(scatter.until - 1.0)), 4.0, POINTS, 300.0) is scatter
+    )
+    later = scatter.learn(one, scan_of(*nowhere(scatter.until + 1.0)), 4.0, POINTS, 300.0)
     assert later.followed.id.tolist() == [1]
     assert later.bends is scatter.bends
 

@@ -13,10 +13,11 @@ def nearest(
     track: Ints, plot: Ints, log_weight: Floats, log_miss: Floats, plots: int
 ) -> Association:
     """
-    Give each track its nearest plot, a contested plot to the track with the larger weight.
+    Give each track its nearest plot, a contested plot to the track that it is worth more to.
 
-    The loser takes its next best plot that is free, if it has one. The gate alone decides
-    whether a plot is near enough: `log_miss` has no say. See `Associator` for the arguments.
+    That is by `log_weight` - `log_miss`. The loser takes its next best plot that is free, if it
+    has one. The gate alone decides whether a plot is near enough, be it no better than a miss.
+    See `Associator` for the arguments.
 
     References
     ----------
@@ -25,7 +26,7 @@ def nearest(
     """
     tracks, chosen = len(log_miss), np.zeros(len(track), np.bool_)
     rank = np.empty(len(track), np.int64)  # unique, so that of equal weights one wins
-    rank[np.argsort(log_weight, kind='stable')] = np.arange(len(track))
+    rank[np.argsort(log_weight - log_miss[track], kind='stable')] = np.arange(len(track))
     left = np.flatnonzero(log_weight > -np.inf)
     while len(left):
         wins = _is_best(rank[left], track[left], tracks) & _is_best(rank[left], plot[left], plots)

@@ -24,9 +24,10 @@ from tracking_core.batches import (
     Seeds,
     Tracks,
 )  # fmt: skip
+from tracking_core.bends import Bends, Followed
 from tracking_core.clutter import Clutter
 from tracking_core.clutter_map import ClutterMap
-from tracking_core.scatter import Bends, Followed, Scatter
+from tracking_core.scatter import Scatter
 from tracking_core.state import State, StepReport
 
 CLASSES = {
