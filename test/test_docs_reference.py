@@ -20,6 +20,7 @@ from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
 from tracking_core.config import with_values
 from tracking_node.health import Health
+from tracking_session.waiting import Waiting
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / 'docs'
@@ -105,7 +106,7 @@ def test_page_has_every_key_of_the_diagnostics():
     one, _ = session()
     one.plots(message(), 1.0)
     keys = {
-        re.sub(r'^(plots|ownship|acquire|cancel) (?!age|used|held|silences)', 'TOPIC ', key)
+        re.sub(r'^(plots|ownship|acquire|cancel) (?!age|used|held|silences|waited)', 'TOPIC ', key)
         for key in Health(0.0).values(one, 1.0)
     }
     text = section('radar_node.md', 'Diagnostics')
@@ -192,7 +193,17 @@ def lines_of_sessions():
     use(odometry=reset)
     turns = [message(100.0 + step, range=[1e3, 2e3], azimuth=[0.1, 2.0]) for step in range(9)]
     use(*turns, odometry=[own_ship(90.0 + step, yaw=0.02 * step) for step in range(20)])
-    return said
+    return [*said, *lines_of_who_waits()]
+
+
+def lines_of_who_waits():
+    """Return what is said where own ship's odometry does not come."""
+    one, log = session()
+    waiting = Waiting(one, radar_node_config(), lambda came, p: one.plots(came.msg, 0.0, p))
+    waiting.ownship(own_ship(99.0), 0.0)
+    waiting.plots(message(), 1.0)
+    waiting.retry(3.1)
+    return log
 
 
 def test_lines_of_the_log_are_those_that_it_prints():

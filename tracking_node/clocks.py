@@ -15,6 +15,7 @@ from rclpy.time import Time
 
 from msg_adapters.message_types import NANOSECONDS
 
+STOOD = 1.0  # s without a tick after which simulated time stands still
 NO_CLOCK = 'use_sim_time is true, but nothing has come on /clock'
 
 
@@ -58,3 +59,23 @@ def arrival_time(node: Any) -> float:
     if clock.ros_time_is_active:
         return float(clock.now().nanoseconds / NANOSECONDS)
     return time.monotonic()
+
+
+class Pausing:
+    """
+    The arrival time of a node, which goes on where simulated time stands still for long.
+
+    A recording that is over, or a player that pauses: whatever has waited for more must not wait
+    for ever.
+    """
+
+    def __init__(self, node: Any) -> None:
+        self._node, self._last, self._since = node, -1.0, 0.0
+
+    def now(self) -> float:
+        """Return the time [s]."""
+        now, steady = arrival_time(self._node), time.monotonic()
+        if now != self._last:
+            self._last, self._since = now, steady
+        stood = steady - self._since
+        return now + stood if stood > STOOD else now

@@ -106,6 +106,8 @@ class Health:
             'step time [s]': self.step_time,
             'step CPU [s]': self.step_cpu,
             'latency [s]': self.latency,
+            f'{topic} waited [s]': session.counts[topic].wait,
+            f'{topic} waited in vain': session.counts[topic].in_vain,
             f'{topic} age [s]': now - self.plots_at,
             'ownship age [s]': now - self.ownship_at,
             'clock jumps': session.guard.jumps,
@@ -129,6 +131,7 @@ def _complaints(session: Session) -> Counter[str]:
     complaints = Counter({f'{session.instrument.topic} were silent': session.guard.silences})
     complaints.update(session.ledger.failures)
     for topic, count in session.counts.items():
+        complaints[f'{topic} waited in vain for ownship'] += count.in_vain
         complaints[f'{topic} lost'] += count.lost
         complaints[f'{topic} shed'] += count.shed
         for reason, number in count.refused.items():

@@ -41,9 +41,10 @@ class Openings:
         """Offer a service."""
         self._keep(self._node.create_service(kind, name, callback), self._node.destroy_service)
 
-    def every(self, period: float, callback: Callback) -> None:
-        """Call back at a steady period [s]."""
-        self._keep(steady_timer(self._node, period, callback), self._node.destroy_timer)
+    def every(self, period: float, callback: Callback) -> Any:
+        """Call back at a steady period [s]; return what can be cancelled and reset."""
+        timer = steady_timer(self._node, period, callback)
+        return self._keep(timer, self._node.destroy_timer)
 
     def when_clock_goes_back(self, callback: Callback) -> None:
         """Call back when simulated time goes back."""

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 import time
 from typing import Any
 
@@ -19,20 +18,20 @@ from msg_adapters.kinds.menu import message_class
 from msg_adapters.message_types import rclpy_types
 from tracking_node.body_topics import BodyTopics
 from tracking_node.clock_check import ClockCheck
-from tracking_node.clocks import age, arrival_time
+from tracking_node.clocks import age, arrival_time, Pausing
 from tracking_node.display import MarkerTopic
 from tracking_node.inputs import Inputs
 from tracking_node.openings import Openings
 from tracking_node.reporter import Reporter
-from tracking_node.waiting import Waiting
 from tracking_session.node_config import Configs
 from tracking_session.orders import acquire, cancel
 from tracking_session.session import Session
 from tracking_session.snapshots.keeper import Keeper
+from tracking_session.waiting import Came, Waiting
 
 MakeSession = Callable[..., Session]
 
-RETRY = 0.02  # s between two looks for a transform that is missed
+RETRY = 0.02  # s between two looks at plots that wait
 
 
 class LiveTopics:
@@ -79,20 +78,20 @@ class LiveTopics:
         openings.serve(Trigger, '~/reset', self._on_reset)
         openings.every(1.0, self._tick)
         self._keeper.open(openings.every, arrival_time(self._node))
-        self._follow_transforms(openings)
-        for known in (self._session.guard, self._session.whereabouts):
-            openings.when_clock_goes_back(known.clock_moved)
-
-    def _follow_transforms(self, openings: Openings) -> None:
-        config, ledger = self._node_config, self._session.ledger
-        refuse = partial(ledger.refuse, self._topic, 'no transform')
-        self._waiting = Waiting(self._use_plots, refuse, config.tf_patience)
-        if config.use_tf:
+        self._waiting = Waiting(self._session, self._node_config, self._use_plots)
+        self._time = Pausing(self._node)
+        self._timer = openings.every(RETRY, self._retry)
+        if self._node_config.use_tf:
             self._session.use_transforms(openings.transforms())
-            openings.every(RETRY, self._waiting.retry)
+        session = self._session
+        for take_note in (
+            self._waiting.release, session.guard.clock_moved, session.whereabouts.clock_moved
+        ):  # fmt: skip
+            openings.when_clock_goes_back(take_note)
 
     def close(self) -> None:
         """Give all topics back, and keep the tracks where that is wanted."""
+        self._waiting.release()
         self._keeper.save()
         self._openings.close()
 
@@ -103,8 +102,8 @@ class LiveTopics:
 
     def deactivate(self) -> None:
         """Stop listening and clear the screens; tracks are kept."""
+        self._waiting.release()
         self._is_active = False
-        self._waiting.clear()
         self._markers.clear(self._session)
 
     def reconfigure(self, configs: Configs) -> None:
@@ -121,17 +120,27 @@ class LiveTopics:
             self._on_ownship(*odometry)
         self._reporter.plots_come()
         self._clock_check.compare(msg.header.stamp)
-        self._waiting.take(msg, info)
+        self._waiting.plots(msg, arrival_time(self._node), info)
+        if self._waiting and self._timer.is_canceled():
+            self._timer.reset()
 
-    def _use_plots(self, msg: Any, info: Any) -> None:
+    def _retry(self) -> None:
+        """Look at what waits, now and then: what it waits for may not come."""
+        self._waiting.retry(self._time.now())
+        if not self._waiting:
+            self._timer.cancel()
+
+    def _use_plots(self, came: Came, patience: float) -> None:
         health = self._reporter.health
         health.step_begins()
-        table = self._session.plots(msg, arrival_time(self._node))
+        table = self._session.plots(came.msg, came.received, patience)
         self._keeper.reserve_ids()
+        if not self._node.context.ok():  # the node ends, and nobody hears of it
+            return
         if table is not None:
             self._tracks.publish(table)
             self._show()
-            health.latency = age(info)
+            health.latency = age(came.info)
         health.step_ends()
         self._reporter.report(self._is_active)
 
@@ -147,7 +156,7 @@ class LiveTopics:
         else:
             self._inputs.count('ownship', info)
             self._reporter.health.ownship_at = time.monotonic()
-            self._session.ownship(msg, arrival_time(self._node))
+            self._waiting.ownship(msg, arrival_time(self._node))
 
     def _order(
         self, topic: str, give: Callable[[Session, Any], None]

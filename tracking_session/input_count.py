@@ -17,6 +17,8 @@ class InputCount:
     late_used: int = 0  # messages that came after newer ones
     late_dropped: int = 0  # ... and too late to be used
     lost: int = 0  # gaps in the publisher's own numbers
+    wait: float = 0.0  # of the last message, for where its sensor was [s]
+    in_vain: int = 0  # messages that waited for odometry which did not come
     shed: int = 0  # passed over unread, because the node is too slow and newer ones were there
     publishers: int = 0  # there are at the moment
     refused: Counter[str] = field(default_factory=Counter)  # messages by reason

@@ -100,6 +100,11 @@ class NodeConfig:
         2.0, unit='s', doc='plots may be so far from the nearest odometry of own ship', low=0.0,
         high=3600.0,
     )  # fmt: skip
+    ownship_patience: float = parameter(
+        2.0, unit='s', low=0.0, high=60.0,
+        doc='plots wait so long at most for odometry of own ship of their time, 0.05 s aside; '
+        '0: they do not',
+    )  # fmt: skip
     ownship_leap: float = parameter(
         100.0, unit='m', low=0.0, high=1e6,
         doc='a place of own ship further from where its last ones led, by more than its '

@@ -3,8 +3,8 @@
 """
 What is done with each message, without a ROS graph and whatever the sensor.
 
-The node hands over what it receives and publishes what comes back, as a replay does with those of
-a bag. Whatever it contains, the worst is a refusal, counted and said. Orders are in ``orders.py``.
+The node hands over what it receives and publishes what comes back, as a replay does with a bag.
+Whatever a message contains, the worst is a refusal, counted and said. Orders: ``orders.py``.
 """
 
 from __future__ import annotations
@@ -94,35 +94,36 @@ class Session:
         stamp = self.types.Time(sec=self.stamp.sec, nanosec=self.stamp.nanosec)
         return self.types.Header(stamp=stamp, frame_id=self.frame.name)
 
-    def plots(self, msg: Any, received: float) -> Any | None:
+    def plots(self, msg: Any, received: float, patience: float = 0.0) -> Any | None:
         """
         Return the track table after this message, None if it was refused, came late, or waits.
 
-        Late plots are used at their own time, parts of a scan when it is over; the next table
-        shows it. `NotYet` passes.
+        Late plots and parts of a scan show in a later table. `NotYet` passes.
 
         Parameters
         ----------
         msg : PointCloud2, or another type on the menu of ``kinds``
-            Plots of a radar, marks of a sonar.
+            Plots.
         received : float
             When it came, by a clock that never goes back [s].
+        patience : float
+            Plots may wait so long for where their sensor was [s].
 
         """
         try:
-            return self._follow(msg, received)
+            return self._follow(msg, received, patience)
         except (BadMessage, StalePlatform) as error:
             self.ledger.refuse(self.instrument.topic, error.reason, error)
         return None
 
-    def _follow(self, msg: Any, received: float) -> Any:
+    def _follow(self, msg: Any, received: float, patience: float) -> Any:
         reading = self.instrument.read(msg, self.mapping)
         plots = reading.plots
         frame = self.frame.copy()  # a message that cannot be used decides nothing
         frame.check_plots(plots.frame, reading.is_polar)
         if len(plots):
             self.instrument.check(frame, self.ledger.warn)
-        platform = self.whereabouts.covering(self.instrument.moments(plots), frame)
+        platform = self.whereabouts.covering(self.instrument.moments(plots), frame, patience)
         self.frame = frame
         if self.whereabouts.has_leapt():
             self._start_anew('the sensor is elsewhere')

@@ -24,8 +24,19 @@ from tracking_session.twist_check import TwistCheck
 NEAREST = 0.007  # s between two samples that are kept; odometry up to 125 Hz is kept whole
 
 
+SHORT = 0.05  # s beyond the newest odometry for which own ship goes on as it moved
+
+
 class NotYet(Exception):  # noqa: N818 (a state rather than an error)
-    """Where the sensor was at the time of these plots is not known yet; says what is missing."""
+    """
+    Where the sensor was at the time of these plots is not known yet; says what is missing.
+
+    `wanted` is the time of the odometry that is waited for [s]; -inf: nobody knows.
+    """
+
+    def __init__(self, what: str, wanted: float = -np.inf) -> None:
+        super().__init__(what)
+        self.wanted = wanted
 
 
 class Transforms(Protocol):
@@ -93,22 +104,62 @@ class Whereabouts:
         """Yield what own ship says against itself."""
         return self._twist.doubts()
 
-    def covering(self, times: Floats, frame: TrackingFrame) -> Platform | None:
+    @property
+    def newest(self) -> float:
+        """The time of the newest odometry [s], -inf before there is any."""
+        return float(self.platform.time[-1]) if len(self.platform) else -np.inf
+
+    def goes_on(self, stamp: float) -> bool:
+        """Return whether an odometry of this time [s] is of the path that is known."""
+        time = self.platform.time
+        is_near = np.abs(stamp - time[-1:]) <= self._config.time_jump_threshold
+        return bool((is_near & (stamp > time[:1])).all())
+
+    def covering(
+        self, times: Floats, frame: TrackingFrame, patience: float = 0.0
+    ) -> Platform | None:
         """
         Return a path of the sensor's platform that covers these times (K,) [s], if one is needed.
 
+        Parameters
+        ----------
+        times : (K,) array
+            When the plots were seen [s].
+        frame : TrackingFrame
+            Of plots and tracks.
+        patience : float
+            Plots may wait so long [s]; they should, where odometry of their time can come by then.
+
         Raises
         ------
-        StalePlatform, NotYet
-            Where there is none.
+        StalePlatform, BadMessage, NotYet
+            Where there is none; NotYet if there is patience.
 
         """
         if not frame.needs_platform:
             return None
         if self.transforms is not None:
-            self._follow(self.transforms.sensor(str(frame.sensor), frame.name, times))
+            self._ask(self.transforms, frame, times, patience)
+        else:
+            self._await(float(times.max()), patience)
         self.platform.at(times)  # raises where they are not covered
         return self.platform
+
+    def _ask(
+        self, transforms: Transforms, frame: TrackingFrame, times: Floats, patience: float
+    ) -> None:
+        try:
+            self._follow(transforms.sensor(str(frame.sensor), frame.name, times))
+        except NotYet as reason:
+            if patience:
+                raise
+            raise BadMessage('no transform', str(reason)) from reason
+
+    def _await(self, time: float, patience: float) -> None:
+        """Raise NotYet where odometry of this time [s] is missed, and not for long."""
+        behind = time - self.newest
+        if SHORT < behind <= patience and (np.diff(self.platform.time[-2:]) <= patience).all():
+            raise NotYet(f'own ship is known up to {behind:.2g} s before', time - SHORT)
 
     def _follow(self, samples: Platform) -> None:
         """Take what the transforms tell of a message; what is newer than all before may leap."""

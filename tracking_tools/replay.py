@@ -10,25 +10,22 @@ Time is that of the recording: the same bag and parameters give the same bytes.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 import sys
 import time
 from typing import Any
 
-from rosbags.highlevel import AnyReader
-from tqdm import tqdm
-
-from msg_adapters.message_types import NANOSECONDS, rosbags_types
+from msg_adapters.message_types import rosbags_types
 from tracking_session.node_config import Configs
 from tracking_session.parameter_blocks import BadParameterFile
-from tracking_session.session import Session
 from tracking_tools.arguments import file_to_write
-from tracking_tools.bags import BadBag, BagWriter, open_bag, POINT_CLOUD, UNREADABLE
+from tracking_tools.bags import BadBag, BagWriter, open_bag, POINT_CLOUD
 from tracking_tools.parameter_file import configure, parse_value, read_parameter_file
 from tracking_tools.presets import parameter_file, PARAMETER_HELP
-from tracking_tools.replay_topics import check_named, check_topics, messages_of, Topics
+from tracking_tools.replay_drive import drive
+from tracking_tools.replay_topics import check_named, check_topics, Topics
 from tracking_tools.report import load_page
 from tracking_tools.sensors import SensorKind, SENSORS
 from tracking_tools.stopping import stoppable, STOPPED
@@ -80,35 +77,12 @@ def replay(
         check_named(bag, topics, recording)
         with BagWriter(output) as out:
             out.announce(topics.tracks, POINT_CLOUD)
-            for table, received, taken in _drive(bag, session, topics, quiet):
-                out.write(topics.tracks, table, received)
-                summary.add(session.tracks, received)
-                summary.step_times.append(taken)
+            for answer, received in drive(bag, session, configs[1], topics, quiet):
+                out.write(topics.tracks, answer.table, received)
+                summary.add(answer.tracks, received)
+                summary.step_times.append(answer.taken)
     summary.wall_time = time.perf_counter() - began
     return summary
-
-
-def _drive(
-    bag: AnyReader, session: Session, topics: Topics, quiet: bool
-) -> Iterator[tuple[Any, int, float]]:
-    """Yield each track table, when its plots were recorded [ns] and how long it took [s]."""
-    handlers = topics.handlers(session)
-    chosen = [connection for connection in bag.connections if connection.topic in handlers]
-    total = sum(connection.msgcount for connection in chosen)
-    with tqdm(total=total, desc='replay', unit='msg', disable=quiet or None) as progress:
-        for connection, received, raw in messages_of(bag, chosen):
-            progress.update()
-            ours = handlers[connection.topic]
-            session.counts[ours.name].received(None, 1)
-            try:
-                msg = bag.deserialize(raw, connection.msgtype)
-            except UNREADABLE:
-                session.counts[ours.name].refused['not readable'] += 1
-                continue
-            began = time.perf_counter()
-            table = ours.take(msg, received / NANOSECONDS)
-            if table is not None:
-                yield table, received, time.perf_counter() - began
 
 
 @stoppable('replay')

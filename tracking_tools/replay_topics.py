@@ -15,6 +15,7 @@ from rosbags.interfaces import Connection
 from msg_adapters.kinds.menu import check_type
 from tracking_session.orders import acquire, cancel
 from tracking_session.session import Session
+from tracking_session.waiting import Waiting
 from tracking_tools.bags import absolute, BadBag
 from tracking_tools.sensors import SensorKind, SENSORS
 
@@ -30,7 +31,7 @@ class Handler(NamedTuple):
     """What becomes of the messages of one topic."""
 
     name: str  # ours
-    take: Callable[[Any, float], Any]  # message and when it came [s]: a track table or None
+    take: Callable[[Any, float], Any]  # message and when it came [s]
 
 
 @dataclass(frozen=True)
@@ -76,11 +77,11 @@ class Topics:
             topics = replace(topics, **{known[name]: absolute(theirs)})
         return topics
 
-    def handlers(self, session: Session) -> dict[str, Handler]:
+    def handlers(self, session: Session, waiting: Waiting) -> dict[str, Handler]:
         """Return what to do with the messages of each topic; BadBag where tracks would go."""
         takes: dict[str, Callable[[Any, float], Any]] = {
-            'plots': session.plots,
-            'ownship': session.ownship,
+            'plots': waiting.plots,
+            'ownship': waiting.ownship,
             'acquire': lambda msg, _: acquire(session, msg),
             'cancel': lambda msg, _: cancel(session, msg),
         }

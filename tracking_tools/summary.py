@@ -57,9 +57,11 @@ class Summary:
 
     def __str__(self) -> str:
         speed = self.duration / self.wall_time if self.wall_time else 0.0
+        late, in_vain = self.plots.late_used, self.plots.in_vain
         lines = [
             f'messages: {self.plots.messages}, used: {self.tables}, plots used: {self.plots.rows}',
-            *([f'used late: {self.plots.late_used} messages'] if self.plots.late_used else []),
+            *([f'used late: {late} messages'] if late else []),
+            *([f'waited in vain for own ship: {in_vain} messages'] if in_vain else []),
             *(f'refused: {n} messages, {why}' for why, n in sorted(self.plots.refused.items())),
             *(f'dropped: {n} plots, {why}' for why, n in sorted(self.plots.dropped.items())),
             f'tracks confirmed: {len(self.confirmed)}',

@@ -61,9 +61,11 @@ def test_level_names_all_that_is_wrong_until_it_was_told(session):
     session.counts['plots'].refused['stamp not newer'] += 1
     session.counts['ownship'].refused['own ship leaps'] += 1
     session.ledger.shed('plots')
+    session.counts['plots'].in_vain += 1
     told = (
         'too slow: only the newest plots are used; several publishers on plots; '
-        'ownship refused: own ship leaps; plots refused: stamp not newer'
+        'ownship refused: own ship leaps; plots refused: stamp not newer; '
+        'plots waited in vain for ownship'
     )
     assert health.level(session, 100.0) == ('WARN', told)
     health.told(session)

@@ -78,7 +78,7 @@ def test_first_plots_without_a_transform_do_not_decide_the_frame():
     session = radar(tracking_frame='map')
     session.use_transforms(Transforms())
     with pytest.raises(NotYet):
-        session.plots(turn(0.0, 'other'), 0.0)
+        session.plots(turn(0.0, 'other'), 0.0, patience=1.0)
     assert session.plots(turn(PERIOD), 0.0) is not None
 
 
