@@ -91,9 +91,11 @@ class LiveTopics:
 
     def close(self) -> None:
         """Give all topics back, and keep the tracks where that is wanted."""
-        self._waiting.release()
-        self._keeper.save()
-        self._openings.close()
+        try:
+            self._waiting.release()
+        finally:
+            self._keeper.save()
+            self._openings.close()
 
     def activate(self) -> None:
         """Begin to track."""
