@@ -86,7 +86,7 @@ class Platform:
 
         """
         times = np.asarray(times, np.float64)
-        self._check(times)
+        self.check(times)
         if len(times) == 0:
             return PlatformPose(
                 np.zeros((0, 3)), np.zeros((0, 4)), np.zeros((0, 3)), np.zeros((0, 3, 3)),
@@ -117,6 +117,26 @@ class Platform:
             turn_rate=turn_rate,
         )
 
+    def check(self, times: Floats) -> None:
+        """
+        Do nothing where `at` knows the platform at these times (M,) [s].
+
+        Raises
+        ------
+        StalePlatform
+            If a time is further than `max_extrapolation` from the samples.
+
+        """
+        if len(times) and not len(self):
+            raise StalePlatform('no sample of the platform has come yet')
+        if len(times):
+            age = max(times.max() - self.time[-1], self.time[0] - times.min())
+            if age > self.max_extrapolation:
+                raise StalePlatform(
+                    f'plots are {age:.3g} s away from the samples of the platform, '
+                    f'limit {self.max_extrapolation:g} s'
+                )
+
     def _turn_rate(self, times: Floats) -> Floats:
         """
         Return how fast the platform turns (M, 3), from samples at least `_RATE_SPAN` apart.
@@ -131,17 +151,6 @@ class Platform:
         turn = (start.inv() * Rotation.from_quat(self.orientation[other])).as_rotvec()
         span = np.maximum(self.time[other] - self.time[one], _SHORTEST)
         return np.asarray(turn / span[:, None])
-
-    def _check(self, times: Floats) -> None:
-        if len(times) and not len(self):
-            raise StalePlatform('no sample of the platform has come yet')
-        if len(times):
-            age = max(times.max() - self.time[-1], self.time[0] - times.min())
-            if age > self.max_extrapolation:
-                raise StalePlatform(
-                    f'plots are {age:.3g} s away from the samples of the platform, '
-                    f'limit {self.max_extrapolation:g} s'
-                )
 
 
 def pose_at(platform: Platform | None, times: Floats) -> PlatformPose:

@@ -142,7 +142,7 @@ class Whereabouts:
             self._ask(self.transforms, frame, times, patience)
         else:
             self._await(float(times.max()), patience)
-        self.platform.at(times)  # raises where they are not covered
+        self.platform.check(times)
         return self.platform
 
     def _ask(
