@@ -78,24 +78,29 @@ class Waiting:
         count = self._session.counts[self._session.instrument.topic]
         while self._queue:
             waited = now - self._queue[0].received
-            is_full = len(self._queue) > MOST or self._held > ROOM
-            is_late = is_full or not 0.0 <= waited <= self._patience
-            if not is_late and self._wanted > self._session.whereabouts.newest:
+            if self._wanted > self._session.whereabouts.newest and not self._is_over(now):
                 return
             came, count.wait = self._pop(), waited
             try:
                 self._use(came, self._patience)
             except NotYet as reason:
-                if not is_late:
-                    self._queue.appendleft(came)
-                    self._held, self._wanted = self._held + came.size, reason.wanted
+                self._queue.appendleft(came)
+                self._held, self._wanted = self._held + came.size, reason.wanted
+                if not self._is_over(now):
                     return
                 self._tell_in_vain(waited)
-                self._use(came, 0.0)
+                self._use(self._pop(), 0.0)
+
+    def _is_over(self, now: float) -> bool:
+        """Return whether the first one may wait no longer."""
+        waited, is_full = now - self._queue[0].received, len(self._queue) > MOST
+        is_late = is_full or self._held > ROOM or not 0.0 <= waited <= self._patience
+        return is_late or self._session.whereabouts.is_silent(now, self._patience)
 
     def _tell_in_vain(self, waited: float) -> None:
         session, topic = self._session, self._session.instrument.topic
-        if session.whereabouts.transforms is None:  # else the message will be refused, and told
+        # Without a transform the message will be refused, and told.
+        if waited > 0.0 and session.whereabouts.transforms is None:
             session.counts[topic].in_vain += 1
             session.ledger.warn(
                 'in vain',

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -24,6 +26,8 @@ from tracking_session.twist_check import TwistCheck
 NEAREST = 0.007  # s between two samples that are kept; odometry up to 125 Hz is kept whole
 
 
+SILENT = 0.25  # of the patience, beyond twice the longest gap but one between odometries
+ARRIVALS = 40  # of odometry, the last ones, that count for it
 SHORT = 0.05  # s beyond the newest odometry for which own ship goes on as it moved
 
 
@@ -81,6 +85,7 @@ class Whereabouts:
         self._twist.reset()
         self.platform = Platform.empty(self._config.ownship_timeout)
         self._has_leapt = False
+        self._heard: deque[float] = deque(maxlen=ARRIVALS)  # when odometry came [s]
 
     def clock_moved(self) -> None:
         """Take note that the ROS clock went back: the next odometry that did so is believed."""
@@ -89,6 +94,7 @@ class Whereabouts:
     def take(self, sample: Platform, received: float) -> bool:
         """Add one odometry; return whether own ship leapt. BadMessage if it cannot be true."""
         has_jumped = self._guard.accept(float(sample.time[0]), received)
+        self._heard.append(received)
         if has_jumped:
             self._leaps.reset()
         has_leapt = self._leaps.accept(sample)
@@ -108,6 +114,13 @@ class Whereabouts:
     def newest(self) -> float:
         """The time of the newest odometry [s], -inf before there is any."""
         return float(self.platform.time[-1]) if len(self.platform) else -np.inf
+
+    def is_silent(self, now: float, patience: float) -> bool:
+        """Return whether odometry that came should long have come again now [s]."""
+        gaps = sorted(after - before for before, after in pairwise(self._heard))
+        if len(gaps) < 2:
+            return False
+        return now - self._heard[-1] > SILENT * patience + 2.0 * gaps[-2]
 
     def goes_on(self, stamp: float) -> bool:
         """Return whether an odometry of this time [s] is of the path that is known."""

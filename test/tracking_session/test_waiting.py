@@ -161,19 +161,19 @@ def test_plots_wait_no_longer_than_they_may_which_is_told():
 
 
 def test_own_ship_that_has_stopped_is_not_waited_for():
-    """What came right after its last word waits as long as it may, what came later does not."""
+    """It tells ten times a second, so soon it is known; what comes later does not wait at all."""
     deck = Deck(ownship_timeout=60.0)
     for time in np.arange(-1.0, 0.05, 0.1):
         deck.tell(time)
-    times = np.arange(0.5, 20.0, 0.5)
+    times = np.arange(0.1, 10.0, 0.1)
     for time in times:
         deck.wait(time)
         deck.look(time)
     waits = np.array(deck.came) - deck.stamps
-    assert deck.stamps == times.tolist()
-    assert waits.max() <= 2.0 + 0.5  # looked at every half second
-    assert (waits[times > 4.0] == 0.0).all()
-    assert deck.count.in_vain <= 4
+    np.testing.assert_allclose(deck.stamps, times, atol=1e-6)
+    assert 0.4 < waits.max() < 0.8
+    assert (waits[times > 0.85] < 1e-6).all()
+    assert deck.count.in_vain == pytest.approx(6, abs=1)
 
 
 def test_odometry_that_comes_more_seldom_than_plots_may_wait_is_not_waited_for():

@@ -77,3 +77,18 @@ def test_path_begins_anew_at_once_where_the_clock_went_back() -> None:
         whereabouts.clock_moved()
         assert not whereabouts.take(sample(1.1, leap), 30.0)
         assert whereabouts.platform.time.tolist() == [1.1]
+
+
+@pytest.mark.parametrize(
+    ('batch', 'pause', 'expected'), [(1, 0.0, 0.7), (10, 0.0, 2.5), (1, 5.0, 0.7)]
+)
+def test_silence_is_longer_than_odometry_uses_to_pause(batch, pause, expected) -> None:
+    """A quarter of the patience and two steps, or two batches; one long pause is none of them."""
+    whereabouts = Whereabouts(radar_node_config())
+    for number in range(100):
+        time = 0.1 * number
+        received = 0.1 * batch * (number // batch) + pause * (number > 80)
+        whereabouts.take(sample(time), received)
+    silent = [t for t in np.arange(0.0, 4.0, 0.01) if whereabouts.is_silent(received + t, 2.0)]
+    assert min(silent) == pytest.approx(expected, abs=0.011)
+    assert not Whereabouts(radar_node_config()).is_silent(1e9, 2.0)
