@@ -4,7 +4,8 @@
 What is done with each message, without a ROS graph and whatever the sensor.
 
 The node hands over what it receives and publishes what comes back, as a replay does with a bag.
-Whatever a message contains, the worst is a refusal, counted and said. Orders: ``orders.py``.
+Whatever a message contains, the worst that happens is a refusal, counted and said. What a user
+orders is in ``orders.py``.
 """
 
 from __future__ import annotations
@@ -153,11 +154,8 @@ class Session:
             history, topic = self._history, self.instrument.topic
             self.counts[topic].late_dropped += history.has_lost(stamp)
             if history.lacks_room(stamp):
-                self.ledger.warn(
-                    'no room',
-                    f'{topic} within scan.late are dropped: no more messages are kept than those '
-                    f'of the last {history.span:.1f} s',
-                )
+                kept = f'no more messages are kept than those of the last {history.span:.1f} s'
+                self.ledger.warn('no room', f'{topic} within scan.late are dropped: {kept}')
             raise
 
     def _start_anew(self, why: str) -> None:
