@@ -35,7 +35,7 @@ class Ship:
         probe.peer.wait_until_matched(self._ownship)
         probe.reset()
         self._epoch = probe.stamp
-        self.now = 0.0
+        self.now, self.looks, self.told = 0.0, 0, 0
 
     def tell(self, *times):
         """Publish odometry of these times."""
@@ -48,7 +48,9 @@ class Ship:
 
     def look(self):
         """Publish the next scan, and odometry up to `LATE` before it."""
-        self.tell(*(self.now + STEP - LATE + np.arange(-STEP + 0.1, 0.05, 0.1)))
+        times = self.now + STEP - LATE + np.arange(-STEP + 0.1, 0.05, 0.1)
+        self.tell(*times)
+        self.looks, self.told = self.looks + 1, self.told + len(times)
         self.now += STEP
         self.probe.stamp = self._epoch + self.now
         azimuth = np.arctan2(BUOY[1], BUOY[0]) - heading(self.now)
@@ -60,6 +62,17 @@ class Ship:
         """Wait until the node, which has one thread, has taken all that it was sent."""
         request = GetParameters.Request(names=['ownship_patience'])
         self.probe.call(GetParameters, 'radar_tracker/get_parameters', request)
+
+    def taken(self):
+        """Return how many scans and odometries the node has taken, by its next diagnostics."""
+        heard = len(self.probe.diagnostics)
+        self.probe.spin_until(lambda: len(self.probe.diagnostics) > heard, 'diagnostics')
+        return np.array([int(self.probe.diagnosed(f'{t} messages')) for t in ('plots', 'ownship')])
+
+    def until_taken(self, looks, before):
+        """Wait until the node has so many looks more than `before`: topics overtake calls."""
+        wanted = before + looks * np.array([1, self.told // self.looks])
+        assert any((self.taken() >= wanted).all() for _ in range(20)), wanted
 
     @property
     def is_answered(self):
@@ -127,9 +140,10 @@ def test_plots_do_not_wait_for_ever_which_is_told(sail, probe):
 def test_plots_that_wait_are_used_where_the_node_is_deactivated(sail, probe):
     """In order, and their tracks are published."""
     _, ship = sail('ownship_patience:=60.0')
-    heard = len(probe.tables)
+    heard, before = len(probe.tables), ship.taken()
     for _ in range(3):
         ship.look()
+    ship.until_taken(3, before)
     assert len(probe.tables) == heard + 2  # of which odometry came before the next
     request = ChangeState.Request(transition=Transition(id=Transition.TRANSITION_DEACTIVATE))
     assert probe.call(ChangeState, 'radar_tracker/change_state', request).success
@@ -141,7 +155,9 @@ def test_node_that_ends_while_plots_wait_keeps_what_they_tell(sail, probe, tmp_p
     """Nobody can hear of their tracks any more, but they are in the snapshot."""
     file = tmp_path / 'tracks'
     node, ship = sail('ownship_patience:=60.0', f'snapshot.file:={file}')
+    before = ship.taken()
     ship.look()
+    ship.until_taken(1, before)
     assert not ship.is_answered
     assert node.stop() == 0
     assert 'Traceback' not in node.log
