@@ -13,8 +13,8 @@ from tracking_core.density import Density
 from tracking_core.faint_starts import share_of_faint, worth_a_track
 from tracking_core.interval import time_of_turns
 from tracking_core.lifecycle_config import InitiationConfig
-from tracking_core.looks import have_passed, longest_since
-from tracking_core.new_contacts import limits, MOST_NEW, Odds, share_of_new, velocity_covariance
+from tracking_core.looks import longest_since, looks_since
+from tracking_core.new_contacts import limits, Odds, share_of_new, velocity_covariance
 from tracking_core.rows import change, take, take_rows
 from tracking_core.space import POINTS, Space
 
@@ -97,12 +97,9 @@ def two_point(
 
     """
     odds = Odds(density, detection_probability, config)
-    alone = odds.at_best(seeds, interval)
-    leniency = 1.0
-    if config.faint_starts:
-        leniency = odds.leniency(alone, seeds, least_existence)
-    most, least = MOST_NEW * seeds.free, least_existence / leniency
-    seeds = take(seeds, most * alone >= least * (1.0 - most + most * alone))
+    looks = looks_since(seeds.time, seeds.position, interval, coverage)
+    hopeful, leniency = odds.can_start(seeds, looks, interval, least_existence)
+    seeds, first = take(seeds, hopeful), looks[hopeful] == 1.0
 
     old, new, step, dt = _within_reach(seeds, fresh, coverage, interval, config, space)
     if len(old) == 0:
@@ -114,8 +111,7 @@ def two_point(
     evidence = np.bincount(old, likely, len(seeds)) - detection_probability
     usual = density.existence(1.0)
     thinner = density.existence(seeds.relief) / usual
-    passed = have_passed(seeds.position, coverage)
-    prior = share_of_new(usual, thinner, np.asarray(evidence), seeds.free, passed) * seeds.free
+    prior = share_of_new(usual, thinner, np.asarray(evidence), seeds.free, first) * seeds.free
     existence = prior[old] * likely / (1.0 + prior * evidence)[old]
     most_faint = share_of_faint(config.faint_starts, coverage, density)
     keep = worth_a_track(existence, least_existence, leniency, most_faint)

@@ -113,12 +113,19 @@ def _travel(azimuth: Floats, coverage: Coverage) -> Floats:
     return np.asarray(ahead % TURN)
 
 
-def have_passed(position: Floats, coverage: Coverage) -> Bools:
-    """Return which places (K, d) the antenna pointed at in this scan: all, if it does not turn."""
-    if coverage.rotation_rate == 0.0:
-        return np.ones(len(position), bool)
+def looks_since(time: Floats, position: Floats, interval: float, coverage: Coverage) -> Floats:
+    """
+    Return how many looks ago plots (S,) were made, where this scan looked again; 0: elsewhere.
+
+    `time` (S,) [s] and `position` (S, d) [m] are the plots', `interval` [s] is from look to look.
+    """
+    end, rate = coverage.end_time, coverage.rotation_rate
+    if rate == 0.0:
+        return np.maximum(np.rint((end - time) / interval), 1.0)
     x, y = (position[:, :2] - coverage.sensor_position[:2]).T
-    return _travel(np.arctan2(y, x), coverage) <= abs(coverage.sweep)
+    travelled = _travel(np.arctan2(y, x), coverage)
+    looks = np.maximum(np.rint((end - travelled / abs(rate) - time) / interval), 1.0)
+    return np.where(travelled <= abs(coverage.sweep), looks, 0.0)
 
 
 def longest_since(time: Floats, latest: float, coverage: Coverage) -> Floats:

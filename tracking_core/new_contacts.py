@@ -18,6 +18,7 @@ from tracking_core.linalg import determinant, inverse
 MOST_NEW = 0.9  # share of the unclaimed plots that new contacts can have made
 _STEPS = 5  # of expectation and maximisation
 _FAINTER = 0.1  # than at rest: a pair of a contact that moves, or was missed between
+_MOST_MORE = 2.0  # new contacts than expected: so many a plot missed since may be thought to be
 _MOST_LENIENT = 1000.0  # in clutter that is denser still nothing can be followed
 _TRUST = 200.0  # plots that the expected share of new contacts counts for
 
@@ -34,7 +35,8 @@ def share_of_new(
     The expected share is what the parameters say of contacts that come one by one. After a start,
     or when a whole formation appears, it is far too small, and the pairs themselves tell: a few
     steps of expectation and maximisation, held back by the expectation for want of evidence. Only
-    plots `looked_at` (S,) once more tell: in a sector most are elsewhere.
+    plots `looked_at` (S,) just once more tell: in a sector most are elsewhere, and those that are
+    left of earlier looks are fewer of contacts, which were seen again and have tracks.
     """
     there, free, evidence = likely[looked_at], free[looked_at], evidence[looked_at]
     one, both = there * free * (1.0 + evidence), there * free * evidence
@@ -53,7 +55,7 @@ class Odds:
     detection_probability: float
     config: InitiationConfig
 
-    def at_best(self, seeds: Seeds, dt: float) -> Floats:
+    def at_best(self, seeds: Seeds, dt: Floats | float) -> Floats:
         """Return the odds (S,) of a second plot just where the first is, dt [s] later."""
         spread = self._spread(2.0 * seeds.covariance, dt)
         return self.of_plots(seeds) * _peak(determinant(spread), spread.shape[1])
@@ -71,6 +73,34 @@ class Odds:
         middle = len(both) // 2
         usual = np.partition(both / (1.0 + both), middle)[middle]
         return float(np.clip(least / max(_FAINTER * usual, TINY), 1.0, _MOST_LENIENT))
+
+    def can_start(
+        self, seeds: Seeds, looks: Floats, interval: float, least: float
+    ) -> tuple[Bools, float]:
+        """
+        Return which plots (S,) are worth a track with a second one just there, and the leniency.
+
+        Parameters
+        ----------
+        seeds : Seeds
+            Older plots.
+        looks : (S,) array
+            How many looks ago they were made, 0: this scan did not look there.
+        interval : float
+            From look to look [s].
+        least : float
+            Chance of a new track that is usually worth one.
+
+        """
+        alone, most = self.at_best(seeds, interval), MOST_NEW * seeds.free
+        leniency = self.leniency(alone, seeds, least) if self.config.faint_starts else 1.0
+        if leniency > 1.0:  # most plots of earlier looks are not worth it there
+            late, expected = np.maximum(looks, 1.0), self.density.existence(seeds.relief)
+            missed = (1.0 - self.detection_probability) ** (late - 1.0)
+            alone = missed * self.at_best(seeds, late * interval)
+            fewer = np.minimum(_MOST_MORE * expected, MOST_NEW) * seeds.free
+            most = np.where(late > 1.0, fewer, most)
+        return most * alone >= least / leniency * (1.0 - most + most * alone), leniency
 
     def of_plots(self, plots: Seeds) -> Floats:
         """Return P_D over the density of other plots (M,), of plots that may be a contact's."""

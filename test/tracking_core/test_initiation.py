@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
@@ -19,9 +18,7 @@ from tracking_core.faint_starts import share_of_faint
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import wrap_angle
-from tracking_core.looks import have_passed
 from tracking_core.new_contacts import Odds, share_of_new, velocity_covariance
-from tracking_core.rows import take
 
 INTERVAL = 4.0
 STARING = Coverage(INTERVAL, INTERVAL)
@@ -195,43 +192,6 @@ def test_share_of_faint_of_a_look_everywhere_is_all() -> None:
     """Of a full turn, too."""
     assert share_of_faint(30, Coverage(0.0, 4.0), THIN) == 30
     assert share_of_faint(30, Coverage(0.0, 4.0, 1.0, -6.28), THIN) == 30
-
-
-@pytest.mark.parametrize('sectors', [8, 32, 128])
-def test_two_point_starts_as_many_faint_tracks_in_sectors_as_in_a_turn(sectors: int) -> None:
-    """Of 400 faint pairs around the radar 30 are followed in all, not one a sector at least."""
-    grid = np.stack(np.meshgrid(np.arange(20), np.arange(20)), axis=-1).reshape(-1, 2) * 5e3
-    seeds, fresh = plots(0.0, grid - 48e3), plots(4.0, grid - 48e3 + np.arange(400)[:, None])
-    density, count = Density(clutter=2e-7, new_contacts=1e-10), 0
-    for sector in sectors_of_a_turn(sectors):
-        seen = take(fresh, have_passed(fresh.position, sector))
-        count += len(two_point(seeds, seen, density, sector, 4.0, 0.9, 0.01, LIMITS).plot)
-    assert count == pytest.approx(30, abs=4)
-
-
-def sectors_of_a_turn(sectors: int) -> list[Coverage]:
-    """Return what the sectors of the second turn of an antenna cover."""
-    parts = np.linspace(0.0, 1.0, sectors + 1)
-    return [
-        Coverage(4.0 + 4.0 * one, 4.0 + 4.0 * other, 2.0 * np.pi * one, 2.0 * np.pi / sectors)
-        for one, other in pairwise(parts)
-    ]
-
-
-def test_two_point_asks_only_where_the_antenna_looked() -> None:
-    """First plots in other sectors have no second one yet: they do not tell of few contacts."""
-    angle = np.linspace(-np.pi, np.pi, 60, endpoint=False) + 0.01
-    ring = 2e4 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    seeds, fresh, density = plots(0.0, ring), plots(4.5, ring), Density(1e-7, 1e-10)
-    for sector in sectors_of_a_turn(8):
-        here = have_passed(ring, sector)
-        assert 7 <= here.sum() <= 8
-        alone, among = (
-            two_point(first, take(fresh, here), density, sector, 4.0, 0.9, 1e-9, LIMITS)
-            for first in (take(seeds, here), seeds)
-        )
-        assert len(alone.plot) >= 7
-        assert_allclose(among.existence_probability, alone.existence_probability, rtol=1e-12)
 
 
 def test_two_point_takes_nothing() -> None:
