@@ -14,6 +14,7 @@ from tracking_core.chances import TINY
 from tracking_core.density import Density
 from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import determinant, inverse
+from tracking_core.rows import take
 
 MOST_NEW = 0.9  # share of the unclaimed plots that new contacts can have made
 _STEPS = 5  # of expectation and maximisation
@@ -95,11 +96,12 @@ class Odds:
         alone, most = self.at_best(seeds, interval), MOST_NEW * seeds.free
         leniency = self.leniency(alone, seeds, least) if self.config.faint_starts else 1.0
         if leniency > 1.0:  # most plots of earlier looks are not worth it there
-            late, expected = np.maximum(looks, 1.0), self.density.existence(seeds.relief)
+            old = (looks > 1.0).nonzero()[0]
+            older, late = take(seeds, old), looks[old]
             missed = (1.0 - self.detection_probability) ** (late - 1.0)
-            alone = missed * self.at_best(seeds, late * interval)
-            fewer = np.minimum(_MOST_MORE * expected, MOST_NEW) * seeds.free
-            most = np.where(late > 1.0, fewer, most)
+            alone[old] = missed * self.at_best(older, late * interval)
+            expected = self.density.existence(older.relief)
+            most[old] = np.minimum(_MOST_MORE * expected, MOST_NEW) * older.free
         return most * alone >= least / leniency * (1.0 - most + most * alone), leniency
 
     def of_plots(self, plots: Seeds) -> Floats:
