@@ -54,15 +54,18 @@ class Stretches:
 
         """
         begin, end, ids = spans(truth)
-        first = np.searchsorted(starts, begin, side='right') - 1
-        last = np.searchsorted(starts, end, side='right') - 1
-        seen = (last >= 0) & (first < len(starts) - 1)
-        first, last = np.maximum(first, 0)[seen], np.minimum(last, len(starts) - 2)[seen]
-        ids = ids[seen]
+        pause = OUT_OF_SIGHT * float(np.median(np.diff(starts)))  # longer, the tracker was silent
+        over = np.minimum(starts[1:], starts[:-1] + pause)
+        first = np.searchsorted(over, begin, side='right')
+        last = np.searchsorted(starts[:-1], end, side='right') - 1
+        seen = first <= last
+        begin, end, ids = begin[seen], end[seen], ids[seen]
+        first, last = first[seen], last[seen]
         if len(ids) == 0:
             return Stretches(ids, first, last)
-        # An absence that no whole scan falls into is none.
-        away = (np.diff(ids) != 0) | (first[1:] > last[:-1] + 1)
+        # An absence that no whole scan falls into is none, unless the tracker was silent, too.
+        gone = (first[1:] > last[:-1] + 1) | (begin[1:] - end[:-1] > pause)
+        away = (np.diff(ids) != 0) | gone
         begins, ends = np.append(True, away), np.append(away, True)
         return Stretches(ids[begins], first[begins], last[ends])
 
