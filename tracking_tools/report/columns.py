@@ -3,8 +3,8 @@
 """
 Which rows get into the page, and how: columns by name, as little-endian bytes in base64.
 
-All times count from the beginning of the recording [s]. Lengths are in km where they are drawn,
-bearings in degrees from north clockwise.
+All times count from the beginning of the recording [s]. Lengths are in the unit of the plan where
+they are drawn, bearings in degrees from north clockwise. Rows of one `piece` are joined by a line.
 """
 
 from __future__ import annotations
@@ -21,8 +21,12 @@ from tracking_core.chances import chi_square_bound
 from tracking_tools.bearing_frame import frame_of_tracks
 from tracking_tools.bearing_scene import BearingScene
 from tracking_tools.scene import choose, Scene
+from tracking_tools.scoring.stretches import absences
 
 KM = 1000.0
+FAR = 3.0 * KM  # a plan of less is in metres
+SHORT = 0.04  # part of the plan that a fast track goes while it leads ahead
+LEADS = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)  # [s]
 ELLIPSE = 0.95  # of the true places inside the covariance ellipse
 LIGHTS = (0.95, 0.999)  # share of right innovations below amber and below red
 GREEN, AMBER, RED, DARK = 0, 1, 2, 3
@@ -48,6 +52,7 @@ def track_columns(scene: Scene | BearingScene) -> Columns:
         'id': table['id'].astype(np.uint32),
         'stamp': table['stamp'],
         'time': table['time'],
+        'piece': _pieces(table['id'], table['stamp']),
         'existence': _known(table, 'existence_probability'),
         'manoeuvre': _known(table, 'manoeuvre_probability'),
         'nis': _known(table, 'nis'),
@@ -55,7 +60,11 @@ def track_columns(scene: Scene | BearingScene) -> Columns:
         **{name: table[name] for name in modes_of(table)},
     }
     if isinstance(scene, Scene):
-        return {**common, **_plan_columns(table), 'light': lights(table, plan_dimensions(table))}
+        return {
+            **common,
+            **_plan_columns(table, plan_unit(scene)),
+            'light': lights(table, plan_dimensions(table)),
+        }
     return {**common, **_bearing_columns(scene, table), 'light': lights(table, 1)}
 
 
@@ -78,13 +87,40 @@ def lights(table: Columns, dimensions: int) -> NDArray[np.uint8]:
     return np.where(dark, DARK, light).astype(np.uint8)
 
 
-def _plan_columns(table: Columns) -> Columns:
+def plan_unit(scene: Scene) -> float:
+    """Return the unit of the plan [m]: a kilometre, or a metre where all tracks are near."""
+    return KM if _width(scene.published) > FAR else 1.0
+
+
+def lead_time(columns: Columns) -> float:
+    """Return for how long ahead tracks are drawn [s]; `columns` as of `track_columns`."""
+    speed = np.hypot(columns['vx'], columns['vy'])
+    speed = speed[speed > 0.0]
+    fast = float(np.quantile(speed, 0.9)) if len(speed) else np.inf
+    return max((lead for lead in LEADS if lead * fast < SHORT * _width(columns)), default=LEADS[0])
+
+
+def _width(table: Columns) -> float:
+    """Return how far from each other places are, along x or y."""
+    places = np.stack([table['x'], table['y']], axis=1)
+    told = places[np.isfinite(places).all(axis=1)]
+    return float(np.ptp(told, axis=0).max()) if len(told) else 0.0
+
+
+def _pieces(ids: NDArray[Any], time: Floats) -> NDArray[np.uint32]:
+    """Return the numbers of the pieces that rows sorted by id and time are of."""
+    begins: NDArray[np.uint32] = np.zeros(len(ids), np.uint32)
+    begins[absences(ids, time)] = 1
+    return np.cumsum(begins, dtype=np.uint32)
+
+
+def _plan_columns(table: Columns, unit: float) -> Columns:
     full = table['covariance'].reshape(-1, 6, 6)
     major, minor, angle = ellipses(full[:, :2, :2])
     lengths = {'x': table['x'], 'y': table['y'], 'z': table['z'], 'vx': table['vx'],
                'vy': table['vy'], 'gate_x': _known(table, 'gate_x'),
                'gate_y': _known(table, 'gate_y'), 'major': major, 'minor': minor}  # fmt: skip
-    scaled = {name: (values / KM).astype(np.float32) for name, values in lengths.items()}
+    scaled = {name: (values / unit).astype(np.float32) for name, values in lengths.items()}
     names = ('speed', 'course')
     return {**scaled, 'angle': angle, **{name: _known(table, name) for name in names}}
 
@@ -136,7 +172,10 @@ def plot_columns(scene: Scene | BearingScene) -> Columns:
     if isinstance(scene, BearingScene):
         degrees = frame_of_tracks(scene).degrees(part['bearing']).astype(np.float32)
         return {'time': part['time'], 'bearing': degrees, 'snr': chosen['snr']}
-    return {'time': part['time'], **{n: v / np.float32(KM) for n, v in chosen.items()}}
+    return {
+        'time': part['time'],
+        **{n: v / np.float32(plan_unit(scene)) for n, v in chosen.items()},
+    }
 
 
 def truth_columns(scene: Scene | BearingScene) -> Columns:
@@ -144,11 +183,13 @@ def truth_columns(scene: Scene | BearingScene) -> Columns:
     if not scene.has_truth:
         return {}
     part = choose(scene.truth, np.lexsort((scene.truth['time'], scene.truth['id'])))
-    known = {'id': part['id'].astype(np.uint32), 'time': part['time']}
+    known = {'id': part['id'].astype(np.uint32), 'time': part['time'],
+             'piece': _pieces(part['id'], part['time'])}  # fmt: skip
     if isinstance(scene, BearingScene):
         degrees = frame_of_tracks(scene).degrees(part['bearing']).astype(np.float32)
         return {**known, 'bearing': degrees}
-    return {**known, **{n: (part[n] / KM).astype(np.float32) for n in ('x', 'y')}}
+    unit = plan_unit(scene)
+    return {**known, **{n: (part[n] / unit).astype(np.float32) for n in ('x', 'y')}}
 
 
 def _known(table: Columns, name: str) -> Floats:

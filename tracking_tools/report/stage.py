@@ -32,13 +32,13 @@ LAYERS = {
 }
 
 
-def plan_view() -> Any:
-    """Return the plan view [km], empty."""
+def plan_view(unit: str) -> Any:
+    """Return the plan view in this unit, empty."""
     plan = dress(
         bokeh.plotting.figure(
             name='stage', sizing_mode='stretch_both', active_scroll='wheel_zoom', min_border=4,
-            tools=[*TOOLS, BoxZoomTool(match_aspect=True)], x_axis_label='east [km]',
-            y_axis_label='north [km]', x_range=(0.0, 1.0), y_range=(0.0, 1.0),
+            tools=[*TOOLS, BoxZoomTool(match_aspect=True)], x_axis_label=f'east [{unit}]',
+            y_axis_label=f'north [{unit}]', x_range=(0.0, 1.0), y_range=(0.0, 1.0),
         )
     )  # fmt: skip
     layers = sources()
