@@ -176,6 +176,26 @@ def test_row_of_a_track_without_a_number_is_judged_as_far_as_it_goes(
     assert_allclose(found.accuracy.rmse, 0.0, atol=1e-3)
 
 
+def test_tables_that_were_recorded_twice_count_once(write_bag: WriteBag) -> None:
+    """By two recorders into one bag; they were id switches, as each contact had two tracks."""
+    truth = write_bag('truth', '/truth', [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)])
+    tracks = [table for table in tracked() for _ in range(2)]
+    perfect(found := evaluate(write_bag('tracks', RADAR, tracks), truth))
+    assert found.siap.ambiguity == 1.0
+    assert found.per_track[0].rows == SCANS
+
+
+def test_two_trackers_or_two_rounds_in_one_bag_are_told(write_bag: WriteBag) -> None:
+    """One id in two places is refused; of a recording that was played twice the head says so."""
+    truth = write_bag('truth', '/truth', [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)])
+    again = [(time, {**table, 'id': table['id'] + np.uint32(2)}) for time, table in tracked()]
+    found = evaluate(write_bag('twice', RADAR, tracked() + again), truth)
+    assert 'contacts have 2.0 tracks at a time' in to_text(found)
+    other = [(time, {**table, 'x': table['x'] + 50.0}) for time, table in tracked()]
+    with pytest.raises(BadBag, match=r'track 1 of .* in two places at 1000.000 s: are two'):
+        evaluate(write_bag('both', RADAR, tracked() + other), truth)
+
+
 def test_covariance_of_another_size_is_refused(write_bag: WriteBag) -> None:
     """Says which, and how many numbers it must have."""
     tracks = tracked()

@@ -17,6 +17,7 @@ from tracking_tools.evaluation.units import in_words, percent, Unit, UNITS
 from tracking_tools.scoring.consistency import Consistency
 
 MINUTE = 60.0
+AMBIGUOUS = 1.5  # tracks on a contact
 LARGEST = 0.2  # part of where contacts were that a match radius may be
 
 
@@ -66,11 +67,16 @@ def head(judgement: Judgement) -> list[str]:
 
 
 def _doubt(judgement: Judgement, unit: Unit) -> Iterator[str]:
-    """Yield a word on a match radius that takes any track for any contact."""
+    """Yield a word on a match radius that takes any track for any contact, on tracks twice."""
     if judgement.contacts > 1 and judgement.radius > LARGEST * judgement.extent:
         yield (
             f'all contacts were within {unit.far(judgement.extent)}, so the match radius tells '
             'little: set --radius'
+        )
+    if judgement.siap.ambiguity > AMBIGUOUS:
+        yield (
+            f'contacts have {judgement.siap.ambiguity:.1f} tracks at a time: two trackers in one '
+            'bag, a recording that was played twice, or several plots of a contact?'
         )
 
 
