@@ -205,3 +205,6 @@ def test_onset_delays_are_measured_from_the_beginning_of_the_turn() -> None:
     matches = match(tracks, real, RADIUS)
     assert_allclose(onset_delays(tracks, probability, matches, real), [2.5, np.nan])
     assert_allclose(false_alarms(probability, matches), 2.0 / 13.0)
+    unknown = np.full(20, np.nan)  # of a tracker that tells none
+    assert onset_delays(tracks, unknown, matches, real) == []
+    assert np.isnan(false_alarms(unknown, matches))
