@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import datetime, timezone
 from html import escape
 from importlib.resources import files
 import json
@@ -16,6 +17,7 @@ from bokeh.embed import json_item
 from bokeh.resources import Resources
 import numpy as np
 
+from msg_adapters.message_types import LATEST
 from tracking_session.node_config import Configs
 from tracking_tools.arguments import make_folder
 from tracking_tools.bearing_frame import frame_of_tracks
@@ -52,6 +54,7 @@ from tracking_tools.scene import Scene
 
 MINUTE, HOUR = 60.0, 3600.0
 LONG = 3.0 * HOUR
+MILLENNIUM = 946_684_800.0  # stamps since then are of a clock, not of a simulation [s]
 
 
 def write_page(material: Material, path: Path | str) -> None:
@@ -151,13 +154,20 @@ def _summary(material: Material, table: dict[str, Any]) -> str:
     plots = scene.plots if isinstance(scene, Scene) else scene.marks
     count, what = len(plots.get('time', ())), 'plots' if isinstance(scene, Scene) else 'marks'
     parts = [
-        _duration(float(np.ptp(table['stamp']))),
+        _duration(float(np.ptp(table['stamp']))) + _since(scene.begin),
         f'{len(np.unique(table["stamp"]))} scans with tracks',
         *([f'{count} {what}'] if count else []),
         *([f'{len(np.unique(scene.truth["id"]))} contacts'] if scene.has_truth else []),
         f'{len(np.unique(table["id"]))} confirmed tracks',
     ]
     return ' · '.join(parts)
+
+
+def _since(begin: float) -> str:
+    """Return when a recording began [s since the epoch], '' of simulated time."""
+    if not MILLENNIUM < begin < LATEST:
+        return ''
+    return f' from {datetime.fromtimestamp(begin, timezone.utc):%Y-%m-%d %H:%M:%S} UTC'
 
 
 def _duration(span: float) -> str:
