@@ -46,16 +46,25 @@ def browser() -> Iterator[Any]:
         running.close()
 
 
-def open_page(browser: Any, folder: Path, times: Sequence[float], speed: float) -> Any:
-    """Return the page of contacts that go east, each for `LIFE` [s], with perfect tracks."""
+def open_page(
+    browser: Any,
+    folder: Path,
+    times: Sequence[float],
+    speed: float,
+    north: float = 40.0,
+    lost: float = -1.0,
+) -> Any:
+    """Return the page of contacts that go east, one after the other; tracks are perfect."""
     with BagWriter(folder / 'bag') as bag:
         for time in times:
             number = int(time // LIFE)
             east, one = np.array([12.0 + speed * (time % LIFE)]), np.ones(1)
-            truth = {'id': np.array([number + 1], np.uint32), 'x': east, 'y': 40.0 * one,
+            truth = {'id': np.array([number + 1], np.uint32), 'x': east, 'y': north * one,
                      'z': 0 * one, 'vx': speed * one, 'vy': 0 * one, 'vz': 0 * one}  # fmt: skip
             tracks = {**truth, 'status': np.ones(1, np.uint8), 'p_0': one, 'nis': one,
                       'time': 0 * one, 'covariance': np.eye(6).reshape(1, 36)}  # fmt: skip
+            if time == lost:
+                tracks['x'] = np.nan * one
             for topic, columns in (('radar_tracker/tracks', tracks), ('truth', truth)):
                 msg = from_columns(columns, EPOCH + time, 'map', rosbags_types())
                 bag.write(topic, msg, nanoseconds(EPOCH + time))
@@ -112,3 +121,18 @@ def test_hours_show_the_tracks_near_in_time(browser: Any, tmp_path: Path) -> Non
         assert [len(lines) for lines in page.evaluate(PIECES)] == [count, count]
     page.evaluate('() => contactTracks.choose(contactTracks.paths[2])')
     assert [len(lines) for lines in page.evaluate(PIECES)] == [2, 1]
+
+
+def test_coordinates_of_a_map_are_exact_and_in_figures(browser: Any, tmp_path: Path) -> None:
+    """Of 5,500 km, as in UTM, steps were 0.5 m and labels of the axis 5.50001e+6."""
+    page = open_page(browser, tmp_path, 0.1 * np.arange(200), 1.4, north=5_500_000.123)
+    north = page.evaluate('() => contactTracks.models.paths.data.ys[0][0]')
+    assert_allclose(north, 5_500_000.123, atol=1e-4, rtol=0.0)
+    assert '5500000.1 m' in page.inner_text('#facts')
+    assert not page.evaluate('() => contactTracks.models.stage.left[0].formatter.use_scientific')
+
+
+def test_row_without_a_place_leaves_the_plan(browser: Any, tmp_path: Path) -> None:
+    """One that another tracker did not know where to put, and nothing was drawn at all."""
+    page = open_page(browser, tmp_path, np.arange(0.0, 80.0, 4.0), 100.0, lost=8.0)
+    assert page.evaluate('() => contactTracks.models.stage.x_range.end') > 7.6

@@ -55,9 +55,11 @@ def no_rows(needed: Sequence[str]) -> Columns:
 
 
 def has_heights(table: Columns) -> bool:
-    """Return whether the tracks of a radar are in three dimensions."""
+    """Return whether the tracks of a radar are in three dimensions, all of them."""
     full = table['covariance'].reshape(-1, 6, 6)
-    return len(full) > 0 and bool(np.isfinite([full[:, 2, 2], table['z']]).all())
+    level = np.isfinite(full[:, 0, 0]) & ~np.isfinite(full[:, 2, 2])
+    is_high = bool(np.isfinite(full[:, 2, 2]).any() and np.isfinite(table['z']).all())
+    return is_high and not level.any()
 
 
 def position_rows(table: Columns, stamps: Floats, d: int) -> TrackRows:

@@ -20,13 +20,11 @@ from tracking_core.batches import Floats
 from tracking_core.chances import chi_square_bound
 from tracking_tools.bearing_frame import frame_of_tracks
 from tracking_tools.bearing_scene import BearingScene
+from tracking_tools.evaluation.rows import has_heights
+from tracking_tools.report.plan import plan_unit, single
 from tracking_tools.scene import choose, Scene
 from tracking_tools.scoring.stretches import absences
 
-KM = 1000.0
-FAR = 3.0 * KM  # a plan of less is in metres
-SHORT = 0.04  # part of the plan that a fast track goes while it leads ahead
-LEADS = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)  # [s]
 ELLIPSE = 0.95  # of the true places inside the covariance ellipse
 LIGHTS = (0.95, 0.999)  # share of right innovations below amber and below red
 GREEN, AMBER, RED, DARK = 0, 1, 2, 3
@@ -75,7 +73,7 @@ def modes_of(table: Columns) -> list[str]:
 
 def plan_dimensions(table: Columns) -> int:
     """Return how many coordinates a radar's plot has."""
-    return 3 if np.isfinite(table['covariance'][:, 14]).all() else 2
+    return 3 if has_heights(table) else 2
 
 
 def lights(table: Columns, dimensions: int) -> NDArray[np.uint8]:
@@ -85,26 +83,6 @@ def lights(table: Columns, dimensions: int) -> NDArray[np.uint8]:
     light = np.searchsorted(bounds, np.nan_to_num(nis))
     dark = ~np.isfinite(nis) | (_known(table, 'coasted') > 0)
     return np.where(dark, DARK, light).astype(np.uint8)
-
-
-def plan_unit(scene: Scene) -> float:
-    """Return the unit of the plan [m]: a kilometre, or a metre where all tracks are near."""
-    return KM if _width(scene.published) > FAR else 1.0
-
-
-def lead_time(columns: Columns) -> float:
-    """Return for how long ahead tracks are drawn [s]; `columns` as of `track_columns`."""
-    speed = np.hypot(columns['vx'], columns['vy'])
-    speed = speed[speed > 0.0]
-    fast = float(np.quantile(speed, 0.9)) if len(speed) else np.inf
-    return max((lead for lead in LEADS if lead * fast < SHORT * _width(columns)), default=LEADS[0])
-
-
-def _width(table: Columns) -> float:
-    """Return how far from each other places are, along x or y."""
-    places = np.stack([table['x'], table['y']], axis=1)
-    told = places[np.isfinite(places).all(axis=1)]
-    return float(np.ptp(told, axis=0).max()) if len(told) else 0.0
 
 
 def _pieces(ids: NDArray[Any], time: Floats) -> NDArray[np.uint32]:
@@ -117,12 +95,13 @@ def _pieces(ids: NDArray[Any], time: Floats) -> NDArray[np.uint32]:
 def _plan_columns(table: Columns, unit: float) -> Columns:
     full = table['covariance'].reshape(-1, 6, 6)
     major, minor, angle = ellipses(full[:, :2, :2])
-    lengths = {'x': table['x'], 'y': table['y'], 'z': table['z'], 'vx': table['vx'],
-               'vy': table['vy'], 'gate_x': _known(table, 'gate_x'),
-               'gate_y': _known(table, 'gate_y'), 'major': major, 'minor': minor}  # fmt: skip
+    places = {name: single(table[name] / unit) for name in ('x', 'y')}
+    lengths = {'z': table['z'], 'vx': table['vx'], 'vy': table['vy'],
+               'gate_x': _known(table, 'gate_x'), 'gate_y': _known(table, 'gate_y'),
+               'major': major, 'minor': minor}  # fmt: skip
     scaled = {name: (values / unit).astype(np.float32) for name, values in lengths.items()}
     names = ('speed', 'course')
-    return {**scaled, 'angle': angle, **{name: _known(table, name) for name in names}}
+    return {**places, **scaled, 'angle': angle, **{name: _known(table, name) for name in names}}
 
 
 def ellipses(covariance: Floats) -> tuple[Floats, Floats, Floats]:
@@ -162,20 +141,16 @@ def _bearing_columns(scene: BearingScene, table: Columns) -> Columns:
 def plot_columns(scene: Scene | BearingScene) -> Columns:
     """Return all plots or marks, sorted by time."""
     if isinstance(scene, Scene):
-        part, places = scene.plots, ('x', 'y')
+        part, unit = scene.plots, plan_unit(scene)
     else:
-        part, places = scene.marks, ('bearing', 'snr')
+        part, unit = scene.marks, 1.0
     if not len(part.get('time', ())):
         return {}
     part = choose(part, np.argsort(part['time'], kind='stable'))
-    chosen = {name: part[name].astype(np.float32) for name in places}
     if isinstance(scene, BearingScene):
         degrees = frame_of_tracks(scene).degrees(part['bearing']).astype(np.float32)
-        return {'time': part['time'], 'bearing': degrees, 'snr': chosen['snr']}
-    return {
-        'time': part['time'],
-        **{n: v / np.float32(plan_unit(scene)) for n, v in chosen.items()},
-    }
+        return {'time': part['time'], 'bearing': degrees, 'snr': part['snr'].astype(np.float32)}
+    return {'time': part['time'], **{n: single(part[n] / unit) for n in ('x', 'y')}}
 
 
 def truth_columns(scene: Scene | BearingScene) -> Columns:
@@ -189,7 +164,7 @@ def truth_columns(scene: Scene | BearingScene) -> Columns:
         degrees = frame_of_tracks(scene).degrees(part['bearing']).astype(np.float32)
         return {**known, 'bearing': degrees}
     unit = plan_unit(scene)
-    return {**known, **{n: (part[n] / unit).astype(np.float32) for n in ('x', 'y')}}
+    return {**known, **{n: single(part[n] / unit) for n in ('x', 'y')}}
 
 
 def _known(table: Columns, name: str) -> Floats:

@@ -176,7 +176,7 @@
   function fit() {
     const {x_range: xs, y_range: ys, inner_width: width, inner_height: height} = stage;
     if (!isPlan || !(width > 0 && height > 0)) return;
-    const extent = (values) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+    const extent = (values) => values.reduce(([low, high], v) => (Number.isFinite(v) ? [Math.min(low, v), Math.max(high, v)] : [low, high]), [Infinity, -Infinity]);
     const [west, east] = extent(px), [south, north] = extent(py);
     const unit = 1.08 * Math.max((east - west) / width, (north - south) / height, 1e-3);
     const around = (range, middle, size) => {

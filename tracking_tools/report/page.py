@@ -25,11 +25,8 @@ from tracking_tools.picture_style import COLOURS, FAINT
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report.columns import (
     encode,
-    KM,
-    lead_time,
     modes_of,
     plan_dimensions,
-    plan_unit,
     plot_columns,
     track_columns,
     truth_columns,
@@ -49,6 +46,7 @@ from tracking_tools.report.parts import (
     settings_part,
     steps_part,
 )
+from tracking_tools.report.plan import KM, lead_time, plan_unit
 from tracking_tools.report.stage import bearing_record, plan_view
 from tracking_tools.scene import Scene
 

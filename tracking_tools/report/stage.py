@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bokeh.models import BoxZoomTool, ColumnDataSource, Span
+from bokeh.models import BasicTickFormatter, BoxZoomTool, ColumnDataSource, Span
 import bokeh.plotting
 
 from tracking_tools.bearing_frame import Frame
@@ -52,6 +52,8 @@ def plan_view(unit: str) -> Any:
                  fill_color='colour', fill_alpha=0.28, line_color='colour')  # fmt: skip
     plan.multi_line('xs', 'ys', source=layers['trails'], color='colour', line_width=2.2)
     plan.segment('x', 'y', 'x1', 'y1', source=layers['velocities'], color='colour', line_width=1.4)
+    for axis in plan.axis:
+        axis.formatter = BasicTickFormatter(use_scientific=False)
     _markers(plan, layers)
     return plan
 
