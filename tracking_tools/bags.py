@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
+from os import SEEK_END
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import TracebackType
@@ -35,6 +36,7 @@ POINT_CLOUD = 'sensor_msgs/msg/PointCloud2'
 UNREADABLE = (AnyReaderError, SerdeError)  # a message that is damaged
 MAX_ROWS = 1_000_000  # of one message that the tools read
 _STORAGE = 'recording'
+_MCAP_END = b'\x89MCAP0\r\n'
 # What rmw reports for a publisher that sets neither deadline nor lifespan nor lease.
 _UNLIMITED = QosTime(9223372036, 854775807)
 
@@ -88,15 +90,39 @@ def open_bag(path: Path | str) -> Iterator[AnyReader]:
     if not path.exists():
         raise FileNotFoundError(f'no bag at {path}')
     if path.is_dir() and not (path / 'metadata.yaml').exists():
-        raise BadBag(f'{path} is no rosbag2 recording: there is no metadata.yaml in it')
+        raise BadBag(
+            f'{path} is no rosbag2 recording: there is no metadata.yaml in it{_hint(path)}'
+        )
     try:
         bag = AnyReader([path], default_typestore=TYPESTORE)
         bag.open()
     except Exception as error:  # whatever damaged bytes lead the reader to
-        why = str(error) or type(error).__name__
-        raise BadBag(f'{path} cannot be read as a rosbag2 recording: {why}') from error
+        why = str(error).rstrip('.') or type(error).__name__
+        raise BadBag(
+            f'{path} cannot be read as a rosbag2 recording: {why}{_hint(path)}'
+        ) from error
     with closing(bag):
         yield bag
+
+
+def _hint(path: Path) -> str:
+    """Return what to do with what a recorder has left that was killed, '' for anything else."""
+    files = [path] if path.is_file() else sorted(path.glob('*.mcap')) + sorted(path.glob('*.db3'))
+    for file in files:
+        if file.suffix == '.mcap' and file.stat().st_size and not _has_end(file):
+            return (
+                f'. The end of {file} is missing, as where a recorder was killed: '
+                f'mcap recover {file} -o whole.mcap, then give whole.mcap'
+            )
+    if files and path.is_dir() and not (path / 'metadata.yaml').exists():
+        return f', as where a recorder was killed: ros2 bag reindex {path}, or give {files[0]}'
+    return ''
+
+
+def _has_end(file: Path) -> bool:
+    with file.open('rb') as stream:
+        stream.seek(-min(len(_MCAP_END), file.stat().st_size), SEEK_END)
+        return stream.read() == _MCAP_END
 
 
 class BagWriter:

@@ -35,6 +35,7 @@ class BearingScene:
     tracks: Columns  # confirmed tracks, a row per track and cycle
     truth: Columns  # id, time, bearing, range; empty without a truth
     own: Columns  # time, heading [rad]; empty without own ship
+    begin: float = 0.0  # of the recording [s since the epoch]
 
     @property
     def has_truth(self) -> bool:
@@ -89,7 +90,7 @@ def read_bearing_scene(
     begin = float(min(time.min() for time in times)) if times else 0.0
     marks, table, real, own = (since(begin, part) for part in (marks, table, real, own))
     confirmed = table.get('status', np.zeros(0)) == CONFIRMED
-    return BearingScene(marks, choose(table, confirmed), real, own)
+    return BearingScene(marks, choose(table, confirmed), real, own, begin)
 
 
 def _marks(msg: Any, sensor: SensorConfig, fields: Mapping[str, str]) -> Columns:

@@ -21,6 +21,9 @@ HOLDING = 480.0  # what is shown of a holding [s]
 MEETING = 70.0  # ... before and after a meeting [s]
 NEAR = 3_000.0  # farther apart is no meeting [m]
 FREE = 6_000.0  # around a label [m]
+NAMED = 60  # tracks with a label at most
+MANY = 20_000  # looks that labels are kept away from
+NIGH = 10.0  # looks before and after a track in which its contact is looked for
 PARALLEL = 0.35  # courses that differ less run side by side [rad]
 
 
@@ -65,11 +68,14 @@ def true_path(scene: Scene, number: int) -> Columns:
     own = of_id(scene.tracks, number)
     if not scene.has_truth or not len(own['time']):
         return own
-    truth, period = scene.truth, float(np.median(np.diff(own['time']))) or 1.0
+    period = float(np.median(np.diff(own['time']))) or 1.0
+    first, last = own['time'][0] - NIGH * period, own['time'][-1] + NIGH * period
+    meanwhile = (scene.truth['time'] >= first) & (scene.truth['time'] <= last)
+    truth = choose(scene.truth, meanwhile) if meanwhile.any() else scene.truth
     scale = np.array([NEAR, NEAR, period])
     _, nearest = cKDTree(_points(truth) / scale).query(_points(own) / scale)
     contacts, votes = np.unique(truth['id'][nearest], return_counts=True)
-    return of_id(truth, int(contacts[np.argmax(votes)]))
+    return of_id(scene.truth, int(contacts[np.argmax(votes)]))
 
 
 def holding_window(scene: Scene, number: int, shape: float) -> Window:
@@ -106,10 +112,12 @@ def find_meeting(scene: Scene, shape: float, but: Window) -> Window | None:
 
 
 def place_labels(tracks: Columns) -> dict[int, tuple[float, float]]:
-    """Return a place on each track (x, y) [m] that is away from other tracks and other labels."""
+    """Return places on the longest tracks (x, y) [m], away from other tracks and labels."""
     places: dict[int, tuple[float, float]] = {}
-    for number in np.unique(tracks.get('id', np.zeros(0))):
-        others = choose(tracks, tracks['id'] != number)
+    ids, looks = np.unique(tracks.get('id', np.zeros(0)), return_counts=True)
+    sparse = choose(tracks, slice(None, None, max(1, len(tracks.get('id', ())) // MANY)))
+    for number in np.sort(ids[np.argsort(-looks, kind='stable')[:NAMED]]):
+        others = choose(sparse, sparse['id'] != number)
         path = _flat(of_id(tracks, int(number)))[:: max(1, SMOOTHING)]
         taken = np.array([*places.values()]).reshape(-1, 2)
         room = _room(path, _flat(others), FREE) + _room(path, taken, 3.0 * FREE)
@@ -137,6 +145,7 @@ def _points(rows: Columns) -> Floats:
 def _around(rows: Columns, start: float, end: float, shape: float) -> Window:
     low = np.array([rows['x'].min(), rows['y'].min()], np.float64)
     high = np.array([rows['x'].max(), rows['y'].max()], np.float64)
-    centre, half = (low + high) / 2.0, (high - low) / 2.0 * 1.12 + 500.0
+    beside = min(500.0, 0.1 * float((high - low).max()) + 1.0)
+    centre, half = (low + high) / 2.0, (high - low) / 2.0 * 1.12 + beside
     tall = max(half[1], half[0] / shape)
     return Window((float(centre[0]), float(centre[1])), (tall * shape, tall), start, end)

@@ -34,6 +34,7 @@ RINGS = 30  # at most
 GATES = 14  # drawn of one track in a closer look, at most
 MOST_NAMED = 2  # tracks in a title
 MARGIN = 0.06  # of the plan around the tracks
+SMALLEST = 1e-3  # plan [km]
 
 
 def draw_plan(axes: Any, scene: Scene) -> None:
@@ -42,10 +43,11 @@ def draw_plan(axes: Any, scene: Scene) -> None:
     x, y = (scene.plots.get(axis, NONE) / KM for axis in 'xy')
     axes.scatter(x, y, s=1.7, color=PLOT, alpha=0.45, linewidths=0.0)
     _draw_truth(axes, scene.truth, linewidth=2.6, alpha=0.3, zorder=2)
-    for number, place in place_labels(scene.tracks).items():
+    for number in _ids(scene.tracks):
         path, colour = of_id(scene.tracks, number), colour_of(number)
         axes.plot(path['x'] / KM, path['y'] / KM, color=colour, linewidth=1.4, zorder=3)
         axes.plot(path['x'][-1] / KM, path['y'][-1] / KM, 'o', color=colour, ms=4, zorder=4)
+    for number, place in place_labels(scene.tracks).items():
         _label(axes, number, (place[0] / KM, place[1] / KM))
     axes.plot([], [], 'o', ms=3, color=PLOT, label='plots')
     axes.plot([], [], color=colour_of(0), linewidth=1.5, label='tracks, with their ids')
@@ -155,7 +157,7 @@ def _frame(axes: Any, scene: Scene) -> None:
     rows = scene.tracks if len(scene.tracks.get('x', ())) else scene.plots
     own = [scene.plots.get(f'sensor_{axis}', NONE) / KM for axis in 'xy']
     x, y = (np.append(rows.get(axis, NONE) / KM, own[n]) for n, axis in enumerate('xy'))
-    half = (0.5 + MARGIN) * max(np.ptp(x), np.ptp(y), 1.0) if len(x) else 1.0
+    half = (0.5 + MARGIN) * max(np.ptp(x), np.ptp(y), SMALLEST) if len(x) else 1.0
     middle = [(v.min() + v.max()) / 2.0 if len(v) else 0.0 for v in (x, y)]
     axes.set_xlim(middle[0] - half, middle[0] + half)
     axes.set_ylim(middle[1] - half, middle[1] + half)

@@ -115,10 +115,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print(f'replay: stopped; the tracks are in {chosen.output}', file=sys.stderr)
         return STOPPED
-    if not summary.tables:
-        why = ', '.join(f'{reason} ({n})' for reason, n in summary.plots.refused.items())
-        why = why or ('no scan is over' if summary.plots.messages else 'there is none')
-        print(f'replay: no message of {topics.plots} could be used: {why}',
+    if summary.unused:
+        print(f'replay: no message of {topics.plots} could be used: {summary.unused}',
               file=sys.stderr)  # fmt: skip
         return 1
     return 0

@@ -36,6 +36,7 @@ class Scene:
     plots: Columns  # x, y, and sensor_x, sensor_y; empty where nobody can place them
     published: Columns  # confirmed tracks, a row per track and message
     truth: Columns  # id, x, y, z, vx, vy, vz, time; empty without a truth
+    begin: float = 0.0  # of the recording [s since the epoch]
 
     @cached_property
     def tracks(self) -> Columns:
@@ -93,7 +94,7 @@ def read_scene(
     begin = float(min(times.min() for times in timed)) if timed else 0.0
     plots, table, real = (since(begin, part) for part in (plots, table, real))
     confirmed = table.get('status', np.zeros(0)) == CONFIRMED
-    return Scene(plots=plots, published=choose(table, confirmed), truth=real)
+    return Scene(plots=plots, published=choose(table, confirmed), truth=real, begin=begin)
 
 
 def choose(columns: Columns, rows: Bools | Ints | slice) -> Columns:

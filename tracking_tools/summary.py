@@ -55,6 +55,14 @@ class Summary:
         """Recorded time from the first to the last message that was used [s]."""
         return 0.0 if self._first is None else (self._last - self._first) / NANOSECONDS
 
+    @property
+    def unused(self) -> str:
+        """Why no message could be used; '' if one was."""
+        if self.tables:
+            return ''
+        why = ', '.join(f'{reason} ({n})' for reason, n in self.plots.refused.items())
+        return why or ('no scan is over' if self.plots.messages else 'there is none')
+
     def __str__(self) -> str:
         speed = self.duration / self.wall_time if self.wall_time else 0.0
         late, in_vain = self.plots.late_used, self.plots.in_vain

@@ -19,6 +19,7 @@ from msg_adapters.table import Columns, from_columns
 from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.evaluate import main
 from tracking_tools.evaluation import evaluate, Yardstick
+from tracking_tools.evaluation.units import UNITS
 from tracking_tools.replay import replay
 from tracking_tools.sensors import SENSORS
 from tracking_tools.simulate import main as simulate
@@ -263,3 +264,12 @@ def test_evaluate_says_when_the_match_radius_tells_nothing(
     assert ('set --radius' in capsys.readouterr().out) == is_doubtful
     assert main([str(tracks), '--truth', str(truth), '--radius', '20']) == 0
     assert 'set --radius' not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ('far', 'words'), [(0.14159, '0.142 m'), (5.3, '5.30 m'), (83.51, '83.5 m'), (0.0, '0.0 m')]
+)
+def test_small_errors_have_figures_that_tell(far: float, words: str) -> None:
+    """Of a radar of 50 m all errors were 0.1 m."""
+    assert UNITS['radar'].far(far) == words
+    assert UNITS['radar'].far(float('nan')) == 'none'

@@ -60,6 +60,15 @@ def tracked(late: float = 0.0) -> list[tuple[float, Columns]]:
     ]  # fmt: skip
 
 
+def circle(time: float) -> Columns:
+    """Return where both are that circle with a radius of 1000 m at 4 deg/s."""
+    turn = np.radians(4.0)
+    east, north = np.cos(turn * time), np.sin(turn * time)
+    speed = 1000.0 * turn * np.ones(2)
+    return {**state(time), 'x': 1000.0 * east * np.ones(2), 'vx': -speed * north,
+            'y': 1000.0 * north + np.array([0.0, 20e3]), 'vy': speed * east}  # fmt: skip
+
+
 def perfect(found: Judgement) -> None:
     """Check that nothing is missed or false."""
     assert found.held.coverage == 1.0
@@ -155,8 +164,7 @@ def test_covariance_that_is_none_costs_the_nees_only(write_bag: WriteBag, value:
     found = evaluate(write_bag('tracks', RADAR, tracks), write_bag('truth', '/truth', tables))
     assert found.held.coverage == 1.0
     assert_allclose(found.accuracy.rmse, np.sqrt(50.0), rtol=1e-3)
-    level = np.isnan(value)  # then compared over the ground
-    assert found.dimensions == (2 if level else 3)
+    assert found.dimensions == 3
     assert (found.nees_position.samples, found.nees_state.samples) == (SCANS, SCANS)
     assert_allclose(found.nees_position.mean, 0.0, atol=1e-6)
     assert_allclose(found.per_contact[0].accuracy.nees_state, 0.0, atol=1e-6)
@@ -174,6 +182,41 @@ def test_row_of_a_track_without_a_number_is_judged_as_far_as_it_goes(
     assert_allclose(found.held.coverage, 1.0 - (name == 'x') / (2 * SCANS))
     assert found.dimensions == (2 if name == 'z' else 3)
     assert_allclose(found.accuracy.rmse, 0.0, atol=1e-3)
+
+
+def test_truth_that_is_shorter_or_told_seldom_is_said_so(write_bag: WriteBag) -> None:
+    """Tracks before it count as false; turns between two samples are errors of the truth."""
+    tracks = write_bag('tracks', RADAR, tracked())
+    late = [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS // 2, SCANS)]
+    found = evaluate(tracks, write_bag('late', '/truth', late))
+    assert_allclose(found.outside, 0.5, atol=0.03)
+    assert 'rows of tracks are from before or after all truth' in to_text(found)
+    assert (found.truth_error, 'known to' in to_text(found)) == (0.0, False)
+    flown = [(time, {**table, **circle(time)}) for time, table in tracked()]
+    seldom = [(40.0 * k, circle(40.0 * k)) for k in range(6)]
+    found = evaluate(write_bag('flown', RADAR, flown), write_bag('seldom', '/truth', seldom))
+    assert found.accuracy.rmse > 50.0
+    assert f'known to some {found.truth_error:.1f} m only' in to_text(found)
+
+
+def test_tables_that_were_recorded_twice_count_once(write_bag: WriteBag) -> None:
+    """By two recorders into one bag; they were id switches, as each contact had two tracks."""
+    truth = write_bag('truth', '/truth', [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)])
+    tracks = [table for table in tracked() for _ in range(2)]
+    perfect(found := evaluate(write_bag('tracks', RADAR, tracks), truth))
+    assert found.siap.ambiguity == 1.0
+    assert found.per_track[0].rows == SCANS
+
+
+def test_two_trackers_or_two_rounds_in_one_bag_are_told(write_bag: WriteBag) -> None:
+    """One id in two places is refused; of a recording that was played twice the head says so."""
+    truth = write_bag('truth', '/truth', [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)])
+    again = [(time, {**table, 'id': table['id'] + np.uint32(2)}) for time, table in tracked()]
+    found = evaluate(write_bag('twice', RADAR, tracked() + again), truth)
+    assert 'contacts have 2.0 tracks at a time' in to_text(found)
+    other = [(time, {**table, 'x': table['x'] + 50.0}) for time, table in tracked()]
+    with pytest.raises(BadBag, match=r'track 1 of .* in two places at 1000.000 s: are two'):
+        evaluate(write_bag('both', RADAR, tracked() + other), truth)
 
 
 def test_covariance_of_another_size_is_refused(write_bag: WriteBag) -> None:

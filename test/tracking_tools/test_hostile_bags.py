@@ -74,3 +74,18 @@ def test_replay_names_the_bag_that_cannot_be_opened(cut_bag, tmp_path, file, con
     (bag / file).write_bytes(content)
     with pytest.raises(BadBag, match=r'bag cannot be read as a rosbag2 recording: \S'):
         replay(bag, tmp_path / 'out', quiet=True)
+
+
+def test_recording_of_a_killed_recorder_says_how_to_mend_it(cut_bag, tmp_path):
+    """Its folder has no metadata.yaml, and the end of its file may be missing."""
+    bag = shutil.copytree(cut_bag(5), tmp_path / 'bag')
+    (bag / 'metadata.yaml').unlink()
+    words = r'killed: ros2 bag reindex \S*bag, or give \S*bag/recording.mcap'
+    with pytest.raises(BadBag, match=words):
+        replay(bag, tmp_path / 'out', quiet=True)
+    replay(bag / 'recording.mcap', tmp_path / 'out', quiet=True)
+    whole = (bag / 'recording.mcap').read_bytes()
+    (bag / 'recording.mcap').write_bytes(whole[:-300])
+    for path in (bag, bag / 'recording.mcap'):
+        with pytest.raises(BadBag, match=r'killed: mcap recover \S*bag/recording.mcap -o'):
+            replay(path, tmp_path / 'again', quiet=True)

@@ -79,6 +79,7 @@ def test_replay_writes_a_page_with_all_rows(
     assert 'gospa' in content['figures']
     assert 'sensor.range_sd' in html
     assert f'{len(np.unique(tracks["stamp"]))} scans with tracks' in html
+    assert 'minutes from 2023-11-14 22:13:20 UTC' in html
     assert np.all(np.diff(tracks['id'].astype(int)) >= 0)
 
 

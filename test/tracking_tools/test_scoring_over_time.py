@@ -59,6 +59,19 @@ def test_stretches_of_truth_end_with_the_tracks() -> None:
     assert (stretches.id, stretches.first_scan, stretches.last_scan) == ([7], [0], [19])
 
 
+def test_stretches_of_truth_know_a_pause_of_the_recording() -> None:
+    """Neither tracks nor truth for fifty seconds: another track afterwards is a return."""
+    starts = np.concatenate([np.arange(10.0), np.arange(60.0, 71.0)])
+    for back in (58, 60):  # the truth comes before the tracks, or with them
+        real = truth((7, 0.0, range(10)), (7, 0.0, range(back, 70)), (8, 0.0, range(20, 50)))
+        stretches = Stretches.of_truth(real, starts)
+        assert stretches.id.tolist() == [7, 7]
+        assert (stretches.first_scan.tolist(), stretches.last_scan.tolist()) == ([0, 10], [9, 19])
+    found = match(rows((8, 1, 0.0, 0.0), (12, 2, 0.0, 0.0)), real, RADIUS)
+    changes = find_changes(found, stretches)
+    assert (changes.switches, changes.breaks, changes.returns) == (0, 0, 1)
+
+
 def test_find_changes_tells_a_switch_from_a_return() -> None:
     """Track 1 to 2 in sight is a switch, 2 to 3 over an absence is a return, a gap is a break."""
     real = truth((7, 0.0, range(8)), (7, 0.0, range(14, 20)))
@@ -192,3 +205,6 @@ def test_onset_delays_are_measured_from_the_beginning_of_the_turn() -> None:
     matches = match(tracks, real, RADIUS)
     assert_allclose(onset_delays(tracks, probability, matches, real), [2.5, np.nan])
     assert_allclose(false_alarms(probability, matches), 2.0 / 13.0)
+    unknown = np.full(20, np.nan)  # of a tracker that tells none
+    assert onset_delays(tracks, unknown, matches, real) == []
+    assert np.isnan(false_alarms(unknown, matches))

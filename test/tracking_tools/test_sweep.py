@@ -8,11 +8,12 @@ import math
 from pathlib import Path
 import shutil
 import tracemalloc
+from typing import Any
 
 import numpy as np
 import pytest
 
-from tracking_tools.bags import BagWriter, open_bag
+from tracking_tools.bags import BagWriter, open_bag, POINT_CLOUD
 from tracking_tools.evaluate import main as evaluate
 from tracking_tools.sweep import main
 from tracking_tools.sweeping import crew
@@ -160,6 +161,15 @@ def test_sweep_takes_a_setting_with_which_nothing_is_tracked(tmp_path: Path) -> 
     assert main([*TINY, *bad]) == 0
     summary = json.loads((tmp_path / 'summary.json').read_text())
     assert summary[0]['means']['held']['mean'] == 0.0
+
+
+def test_sweep_says_why_a_recording_could_not_be_used(tmp_path: Path, capsys: Any) -> None:
+    """Not that the tracks, in a folder that is gone, have no messages."""
+    with BagWriter(tmp_path / 'empty') as bag:
+        bag.announce('plots', POINT_CLOUD)
+    options = ('--jobs', '1', '--quiet', '--output', str(tmp_path / 'out'))
+    assert main([str(tmp_path / 'empty'), *options]) == 1
+    assert 'no message of /plots could be used: there is none' in capsys.readouterr().err
 
 
 def test_sweep_knows_a_run_by_its_values_in_any_order_and_form(tmp_path: Path) -> None:

@@ -137,6 +137,8 @@ class Judgement:
     tracks: int  # confirmed
     radius: float  # a track farther off is not the contact's
     extent: float  # of the space in which contacts were
+    truth_error: float  # of the truth between its samples, about; NaN: nobody knows
+    outside: float  # share of the rows of tracks from before or after all truth
     dimensions: int  # that are compared; 2 also where the truth of 3-D tracks has no heights
     held: Held
     timing: Timing

@@ -25,12 +25,21 @@ from tracking_tools.evaluation.summaries import (
     summarise_timing,
 )
 from tracking_tools.evaluation.tracks import judge_tracks
-from tracking_tools.scoring import GospaParts, Matches, Stretches, track_error
+from tracking_tools.scoring import (
+    GospaParts,
+    Matches,
+    Stretches,
+    track_error,
+    TrackRows,
+    Truth,
+)
 from tracking_tools.scoring.gospa import gospa_of_distances
 from tracking_tools.scoring.matching import candidates, choose_pairs
 from tracking_tools.scoring.ospa import distances_of_scans, ospa_of_distances, OspaParts
+from tracking_tools.scoring.sampling import error_between_samples
 from tracking_tools.scoring.siap import siap
 
+NAN = float('nan')
 RADIUS = {'radar': 1000.0, 'sonar': math.radians(1.5)}
 
 
@@ -84,6 +93,8 @@ def judge(recorded: Recorded, yardstick: Yardstick) -> Judgement:
         tracks=len(np.unique(rows.id)),
         radius=radius,
         extent=float(np.linalg.norm(np.ptp(truth.position, axis=0))),
+        truth_error=error_between_samples(truth),
+        outside=_outside(rows, truth, slack),
         dimensions=int(rows.position.shape[1]),
         held=summarise_held(recorded, matches, close, stretches, contacts),
         timing=summarise_timing(recorded, matches, contacts),
@@ -103,6 +114,12 @@ def judge(recorded: Recorded, yardstick: Yardstick) -> Judgement:
             np.array([part.false for part in gospas]),
         ),
     )
+
+
+def _outside(rows: TrackRows, truth: Truth, slack: float) -> float:
+    """Return which share of the rows are of before or after all samples; NaN of none."""
+    begin, end = truth.time.min() - slack, truth.time.max() + slack
+    return float(((rows.time < begin) | (rows.time > end)).mean()) if len(rows) else NAN
 
 
 def _sets(

@@ -22,6 +22,7 @@ from tracking_tools.evaluation.rows import (
     judged_rows,
     no_rows,
     position_rows,
+    without_copies,
 )
 from tracking_tools.evaluation.truths import bearings_of, positions_of, ranges_of
 from tracking_tools.own_ship import read_platform
@@ -160,11 +161,11 @@ def _read_tracks(bag: Path | str, topics: Topics, kind: str) -> tuple[Columns, F
     table = read_rows(bag, topics.tracks, convert)
     if not stamps:
         raise BadBag(f'{bag}: {topics.tracks} has no messages')
-    check_table(table, kind, f'{topics.tracks} in {bag}')
+    where = f'{topics.tracks} in {bag}'
+    check_table(table, kind, where)
     table = table or no_rows(NEEDED[kind])
     confirmed = choose(table, judged_rows(table, kind))
-    order = np.argsort(confirmed['stamp'], kind='stable')
-    return choose(confirmed, order), np.unique(stamps)
+    return without_copies(confirmed, kind, where), np.unique(stamps)
 
 
 def _check_topic(bag: Path | str, topic: str, name: str) -> None:

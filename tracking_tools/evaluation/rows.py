@@ -11,6 +11,8 @@ import numpy as np
 from msg_adapters.table import Columns
 from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Bools, Floats
+from tracking_tools.bags import BadBag
+from tracking_tools.scene import choose
 from tracking_tools.scoring import TrackRows
 from tracking_tools.track_table import COVARIANCE, NEEDED
 
@@ -23,6 +25,29 @@ def judged_rows(table: Columns, sensor: str) -> Bools:
     return np.asarray(np.all([table['status'] == CONFIRMED, *known], axis=0))
 
 
+def without_copies(table: Columns, sensor: str, where: str) -> Columns:
+    """
+    Return the rows (N,) without those that were recorded twice, sorted by stamp.
+
+    Raises
+    ------
+    BadBag
+        If a track is in two places in one table.
+
+    """
+    order = np.lexsort((table['id'], table['stamp']))
+    table = choose(table, order)
+    ids, stamps = table['id'], table['stamp']
+    again = np.append(False, (ids[1:] == ids[:-1]) & (stamps[1:] == stamps[:-1]))
+    for row in np.flatnonzero(again).tolist():
+        if any(table[name][row] != table[name][row - 1] for name in PLACE[sensor]):
+            raise BadBag(
+                f'track {ids[row]} of {where} is in two places at {stamps[row]:.3f} s: are two '
+                'trackers on one topic?'
+            )
+    return choose(table, ~again) if again.any() else table
+
+
 def no_rows(needed: Sequence[str]) -> Columns:
     """Return a track table without rows; nothing was tracked, which is a result, too."""
     columns: Columns = {name: np.zeros(0) for name in (*needed, 'stamp', 'time')}
@@ -30,9 +55,11 @@ def no_rows(needed: Sequence[str]) -> Columns:
 
 
 def has_heights(table: Columns) -> bool:
-    """Return whether the tracks of a radar are in three dimensions."""
+    """Return whether the tracks of a radar are in three dimensions, all of them."""
     full = table['covariance'].reshape(-1, 6, 6)
-    return len(full) > 0 and bool(np.isfinite([full[:, 2, 2], table['z']]).all())
+    level = np.isfinite(full[:, 0, 0]) & ~np.isfinite(full[:, 2, 2])
+    is_high = bool(np.isfinite(full[:, 2, 2]).any() and np.isfinite(table['z']).all())
+    return is_high and not level.any()
 
 
 def position_rows(table: Columns, stamps: Floats, d: int) -> TrackRows:

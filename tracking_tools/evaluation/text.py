@@ -17,7 +17,10 @@ from tracking_tools.evaluation.units import in_words, percent, Unit, UNITS
 from tracking_tools.scoring.consistency import Consistency
 
 MINUTE = 60.0
+AMBIGUOUS = 1.5  # tracks on a contact
+FEW = 0.01  # of the rows
 LARGEST = 0.2  # part of where contacts were that a match radius may be
+PART = 0.25  # of the errors that the truth may have
 
 
 def to_json(judgement: Judgement) -> str:
@@ -66,11 +69,26 @@ def head(judgement: Judgement) -> list[str]:
 
 
 def _doubt(judgement: Judgement, unit: Unit) -> Iterator[str]:
-    """Yield a word on a match radius that takes any track for any contact."""
+    """Yield words on figures that tell less of the tracks than they seem to."""
     if judgement.contacts > 1 and judgement.radius > LARGEST * judgement.extent:
         yield (
             f'all contacts were within {unit.far(judgement.extent)}, so the match radius tells '
             'little: set --radius'
+        )
+    if judgement.outside > FEW:
+        yield (
+            f'{judgement.outside:.0%} of the rows of tracks are from before or after all truth: '
+            'they count as false'
+        )
+    if judgement.truth_error > PART * judgement.accuracy.rmse:
+        yield (
+            f'between its samples the truth is known to some {unit.far(judgement.truth_error)} '
+            'only: errors are those of the truth, too; it should be told more often'
+        )
+    if judgement.siap.ambiguity > AMBIGUOUS:
+        yield (
+            f'contacts have {judgement.siap.ambiguity:.1f} tracks at a time: two trackers in one '
+            'bag, a recording that was played twice, or several plots of a contact?'
         )
 
 
@@ -101,7 +119,7 @@ def _held_rows(judgement: Judgement) -> Iterator[tuple[str, str, str]]:
     yield (
         'relative tracking time',
         _number(held.relative_tracking_time),
-        'one break or absence halves it',
+        'one break or new id halves it',
     )
     yield 'false tracks', str(held.false_tracks), f'{held.false_tracks_per_hour:.1f} an hour'
     late, latest = timing.time_to_confirm_median, timing.time_to_confirm_max

@@ -7,6 +7,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+TELLING = 3  # figures, and at most as many after the point
+
 
 @dataclass(frozen=True)
 class Unit:
@@ -21,11 +23,18 @@ class Unit:
 
     def far(self, value: float) -> str:
         """Return a distance with its unit."""
-        return in_words(value * self.scale, self.digits, self.far_unit)
+        return _telling(value * self.scale, self.digits, self.far_unit)
 
     def fast(self, value: float) -> str:
         """Return a speed with its unit."""
-        return in_words(value * self.scale, self.digits + 1, self.fast_unit)
+        return _telling(value * self.scale, self.digits + 1, self.fast_unit)
+
+
+def _telling(value: float, digits: int, unit: str) -> str:
+    """Return a figure with three that tell, or with `digits` after the point, if that is more."""
+    small = math.isfinite(value) and value != 0.0
+    telling = TELLING - 1 - math.floor(math.log10(abs(value))) if small else 0
+    return in_words(value, max(digits, min(TELLING, telling)), unit)
 
 
 def in_words(value: float, digits: int, unit: str) -> str:

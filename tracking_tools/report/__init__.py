@@ -3,8 +3,8 @@
 """
 What happened in a recording? One page to open in any browser, without a network.
 
-Read ``material`` (what is shown), ``columns`` (how it gets into the page), ``stage``, ``panels``
-(its figures), ``page`` (all together) and ``page.js`` (what moves) in this order.
+Read ``material`` (what is shown), ``plan``, ``columns`` (how it gets into the page), ``stage``,
+``panels`` (its figures), ``page`` (all together) and ``page.js`` (what moves) in this order.
 """
 
 from __future__ import annotations

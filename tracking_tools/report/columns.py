@@ -3,8 +3,8 @@
 """
 Which rows get into the page, and how: columns by name, as little-endian bytes in base64.
 
-All times count from the beginning of the recording [s]. Lengths are in km where they are drawn,
-bearings in degrees from north clockwise.
+All times count from the beginning of the recording [s]. Lengths are in the unit of the plan where
+they are drawn, bearings in degrees from north clockwise. Rows of one `piece` are joined by a line.
 """
 
 from __future__ import annotations
@@ -20,9 +20,11 @@ from tracking_core.batches import Floats
 from tracking_core.chances import chi_square_bound
 from tracking_tools.bearing_frame import frame_of_tracks
 from tracking_tools.bearing_scene import BearingScene
+from tracking_tools.evaluation.rows import has_heights
+from tracking_tools.report.plan import plan_unit, single
 from tracking_tools.scene import choose, Scene
+from tracking_tools.scoring.stretches import absences
 
-KM = 1000.0
 ELLIPSE = 0.95  # of the true places inside the covariance ellipse
 LIGHTS = (0.95, 0.999)  # share of right innovations below amber and below red
 GREEN, AMBER, RED, DARK = 0, 1, 2, 3
@@ -48,6 +50,7 @@ def track_columns(scene: Scene | BearingScene) -> Columns:
         'id': table['id'].astype(np.uint32),
         'stamp': table['stamp'],
         'time': table['time'],
+        'piece': _pieces(table['id'], table['stamp']),
         'existence': _known(table, 'existence_probability'),
         'manoeuvre': _known(table, 'manoeuvre_probability'),
         'nis': _known(table, 'nis'),
@@ -55,7 +58,11 @@ def track_columns(scene: Scene | BearingScene) -> Columns:
         **{name: table[name] for name in modes_of(table)},
     }
     if isinstance(scene, Scene):
-        return {**common, **_plan_columns(table), 'light': lights(table, plan_dimensions(table))}
+        return {
+            **common,
+            **_plan_columns(table, plan_unit(scene)),
+            'light': lights(table, plan_dimensions(table)),
+        }
     return {**common, **_bearing_columns(scene, table), 'light': lights(table, 1)}
 
 
@@ -66,7 +73,7 @@ def modes_of(table: Columns) -> list[str]:
 
 def plan_dimensions(table: Columns) -> int:
     """Return how many coordinates a radar's plot has."""
-    return 3 if np.isfinite(table['covariance'][:, 14]).all() else 2
+    return 3 if has_heights(table) else 2
 
 
 def lights(table: Columns, dimensions: int) -> NDArray[np.uint8]:
@@ -78,15 +85,23 @@ def lights(table: Columns, dimensions: int) -> NDArray[np.uint8]:
     return np.where(dark, DARK, light).astype(np.uint8)
 
 
-def _plan_columns(table: Columns) -> Columns:
+def _pieces(ids: NDArray[Any], time: Floats) -> NDArray[np.uint32]:
+    """Return the numbers of the pieces that rows sorted by id and time are of."""
+    begins: NDArray[np.uint32] = np.zeros(len(ids), np.uint32)
+    begins[absences(ids, time)] = 1
+    return np.cumsum(begins, dtype=np.uint32)
+
+
+def _plan_columns(table: Columns, unit: float) -> Columns:
     full = table['covariance'].reshape(-1, 6, 6)
     major, minor, angle = ellipses(full[:, :2, :2])
-    lengths = {'x': table['x'], 'y': table['y'], 'z': table['z'], 'vx': table['vx'],
-               'vy': table['vy'], 'gate_x': _known(table, 'gate_x'),
-               'gate_y': _known(table, 'gate_y'), 'major': major, 'minor': minor}  # fmt: skip
-    scaled = {name: (values / KM).astype(np.float32) for name, values in lengths.items()}
+    places = {name: single(table[name] / unit) for name in ('x', 'y')}
+    lengths = {'z': table['z'], 'vx': table['vx'], 'vy': table['vy'],
+               'gate_x': _known(table, 'gate_x'), 'gate_y': _known(table, 'gate_y'),
+               'major': major, 'minor': minor}  # fmt: skip
+    scaled = {name: (values / unit).astype(np.float32) for name, values in lengths.items()}
     names = ('speed', 'course')
-    return {**scaled, 'angle': angle, **{name: _known(table, name) for name in names}}
+    return {**places, **scaled, 'angle': angle, **{name: _known(table, name) for name in names}}
 
 
 def ellipses(covariance: Floats) -> tuple[Floats, Floats, Floats]:
@@ -126,17 +141,16 @@ def _bearing_columns(scene: BearingScene, table: Columns) -> Columns:
 def plot_columns(scene: Scene | BearingScene) -> Columns:
     """Return all plots or marks, sorted by time."""
     if isinstance(scene, Scene):
-        part, places = scene.plots, ('x', 'y')
+        part, unit = scene.plots, plan_unit(scene)
     else:
-        part, places = scene.marks, ('bearing', 'snr')
+        part, unit = scene.marks, 1.0
     if not len(part.get('time', ())):
         return {}
     part = choose(part, np.argsort(part['time'], kind='stable'))
-    chosen = {name: part[name].astype(np.float32) for name in places}
     if isinstance(scene, BearingScene):
         degrees = frame_of_tracks(scene).degrees(part['bearing']).astype(np.float32)
-        return {'time': part['time'], 'bearing': degrees, 'snr': chosen['snr']}
-    return {'time': part['time'], **{n: v / np.float32(KM) for n, v in chosen.items()}}
+        return {'time': part['time'], 'bearing': degrees, 'snr': part['snr'].astype(np.float32)}
+    return {'time': part['time'], **{n: single(part[n] / unit) for n in ('x', 'y')}}
 
 
 def truth_columns(scene: Scene | BearingScene) -> Columns:
@@ -144,11 +158,13 @@ def truth_columns(scene: Scene | BearingScene) -> Columns:
     if not scene.has_truth:
         return {}
     part = choose(scene.truth, np.lexsort((scene.truth['time'], scene.truth['id'])))
-    known = {'id': part['id'].astype(np.uint32), 'time': part['time']}
+    known = {'id': part['id'].astype(np.uint32), 'time': part['time'],
+             'piece': _pieces(part['id'], part['time'])}  # fmt: skip
     if isinstance(scene, BearingScene):
         degrees = frame_of_tracks(scene).degrees(part['bearing']).astype(np.float32)
         return {**known, 'bearing': degrees}
-    return {**known, **{n: (part[n] / KM).astype(np.float32) for n in ('x', 'y')}}
+    unit = plan_unit(scene)
+    return {**known, **{n: single(part[n] / unit) for n in ('x', 'y')}}
 
 
 def _known(table: Columns, name: str) -> Floats:

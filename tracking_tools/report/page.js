@@ -4,14 +4,18 @@
 // Rows come sorted by track, then time. Text goes into the page as text only.
 'use strict';
 (async () => {
-  const MINUTE = 60, TRAIL = 90, NEAR = 26, FADE = 3, SELDOM = 200;
+  const MINUTE = 60, NEAR = 26, FADE = 3, SELDOM = 200, LONG = 90 * MINUTE, AROUND = 10 * MINUTE;
   const byId = (id) => document.getElementById(id);
   const content = JSON.parse(byId('content').textContent);
   const tracks = decode(content.tracks), plots = decode(content.plots), truth = decode(content.truth);
   const scans = decode(content.scans).stamp, end = scans[scans.length - 1];
   const isPlan = content.kind === 'plan';
-  const paths = split(tracks.id), truePaths = truth.id ? split(truth.id) : [];
-  const state = {time: scans[0], chosen: null, playing: false, moved: 0, rate: 30, shown: new Set()};
+  const paths = split(tracks.id), truePaths = truth.piece ? split(truth.piece) : [];
+  for (const path of paths) path.pieces = [];
+  const owners = new Map(paths.map((path) => [path.id, path]));
+  for (const piece of split(tracks.piece)) owners.get(tracks.id[piece.first]).pieces.push(piece);
+  const isLong = isPlan && end - scans[0] > LONG;  // then only what is near in time is drawn
+  const state = {time: scans[0], chosen: null, playing: false, moved: 0, drawn: 0, rate: 30, shown: new Set()};
 
   for (const [target, item] of Object.entries(content.figures)) await Bokeh.embed.embed_item(item, target);
   const models = {};
@@ -78,8 +82,8 @@
       if (!isPlan) { push(lines, x - tracks.gate[row], y, x + tracks.gate[row], y, own); continue; }
       push(gates, x, y, 2 * tracks.gate_x[row], 2 * tracks.gate_y[row], own);
       push(ellipses, x, y, 2 * tracks.major[row], 2 * tracks.minor[row], own, tracks.angle[row]);
-      push(lines, x, y, x + MINUTE / 2 * tracks.vx[row], y + MINUTE / 2 * tracks.vy[row], own);
-      const first = before(tracks.stamp, t - TRAIL, path.first, path.end) + 1;
+      push(lines, x, y, x + content.lead * tracks.vx[row], y + content.lead * tracks.vy[row], own);
+      const first = before(tracks.stamp, t - 3 * content.lead, path.first, path.end) + 1;
       push(trails, [...px.subarray(first, row + 1), x], [...py.subarray(first, row + 1), y], own);
     }
     fill('now', now); fill('chosen', chosen);
@@ -111,7 +115,7 @@
     if (state.shown.has('truth')) {
       for (const path of truePaths) {
         const row = before(truth.time, t, path.first, path.end), next = row + 1;
-        if (row < path.first || next >= path.end || truth.time[next] - truth.time[row] > 4 * content.period) continue;
+        if (row < path.first || next >= path.end) continue;
         const part = (t - truth.time[row]) / (truth.time[next] - truth.time[row]);
         const mix = (values) => values[row] + part * (values[next] - values[row]);
         push(shown, mix(isPlan ? truth.x : truth.bearing), isPlan ? mix(truth.y) : t / MINUTE);
@@ -120,16 +124,22 @@
     fill('truth', shown);
   }
 
+  const isNear = (times, {first, end: last}) => !isLong || (times[first] < state.time + AROUND && times[last - 1] > state.time - AROUND);
+
   function drawWhole() {
+    state.drawn = state.time;
     const whole = {xs: [], ys: [], colour: [], alpha: []}, real = {xs: [], ys: []}, all = {x: [], y: []};
     if (state.shown.has('paths')) {
       for (const path of paths) {
-        push(whole, px.subarray(path.first, path.end), py.subarray(path.first, path.end), colour(path.id),
-          state.chosen === path ? 1 : isPlan ? 0.38 : 0.75);
+        if (!isNear(tracks.stamp, path) && path !== state.chosen) continue;
+        for (const {first, end: last} of path.pieces) {
+          push(whole, px.subarray(first, last), py.subarray(first, last), colour(path.id),
+            state.chosen === path ? 1 : isPlan ? 0.38 : 0.75);
+        }
       }
     }
     if (state.shown.has('truth')) {
-      for (const {first, end: last} of truePaths) {
+      for (const {first, end: last} of truePaths.filter((path) => isNear(truth.time, path))) {
         const minutes = truth.time.subarray(first, last).map((t) => t / MINUTE);
         push(real, (isPlan ? truth.x : truth.bearing).subarray(first, last), isPlan ? truth.y.subarray(first, last) : minutes);
       }
@@ -143,6 +153,7 @@
 
   function draw() {
     const t = state.time;
+    if (isLong && Math.abs(t - state.drawn) > AROUND / 10) drawWhole();
     drawTracks(t); drawPlots(t); drawTruth(t);
     moveCursors(t);
     byId('time').value = t;
@@ -165,7 +176,7 @@
   function fit() {
     const {x_range: xs, y_range: ys, inner_width: width, inner_height: height} = stage;
     if (!isPlan || !(width > 0 && height > 0)) return;
-    const extent = (values) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+    const extent = (values) => values.reduce(([low, high], v) => (Number.isFinite(v) ? [Math.min(low, v), Math.max(high, v)] : [low, high]), [Infinity, -Infinity]);
     const [west, east] = extent(px), [south, north] = extent(py);
     const unit = 1.08 * Math.max((east - west) / width, (north - south) / height, 1e-3);
     const around = (range, middle, size) => {
@@ -207,12 +218,14 @@
   const number = (value, digits, unit) => (Number.isFinite(value) ? `${value.toFixed(digits)} ${unit}` : 'unknown');
   const compass = (course) => number((450 - course * 180 / Math.PI) % 360, 0, 'deg');
 
+  const [unit, digits] = content.unit === 1 ? ['m', 1] : ['km', 2];
+
   function facts(row) {
     const common = [['exists', share(tracks.existence[row])], ['manoeuvres', share(tracks.manoeuvre[row])],
       ['NIS', number(tracks.nis[row], 1, '')], ['plot', tracks.coasted[row] ? 'missed' : 'seen']];
     const moves = [['speed', number(tracks.speed[row], 1, 'm/s')], ['course', compass(tracks.course[row])]];
-    return isPlan ? [['east', number(px[row], 2, 'km')], ['north', number(py[row], 2, 'km')], ...moves,
-      ['height', number(1000 * tracks.z[row], 0, 'm')], ['sd', number(1000 * tracks.major[row] / 2.448, 0, 'm')], ...common]
+    return isPlan ? [['east', number(px[row], digits, unit)], ['north', number(py[row], digits, unit)], ...moves,
+      ['height', number(content.unit * tracks.z[row], 2 - digits, 'm')], ['sd', number(content.unit * tracks.major[row] / 2.448, 2 - digits, 'm')], ...common]
       : [['bearing', number((px[row] + 360) % 360, 2, 'deg')], ['sd', number(tracks.bearing_sd[row], 3, 'deg')],
         ['range', number(tracks.range[row], 0, 'm')], ['its sd', number(tracks.range_sd[row], 0, 'm')], ...moves, ...common];
   }
@@ -234,10 +247,14 @@
     state.chosen = path;
     const own = empty(models.own.data instanceof Map ? Object.fromEntries(models.own.data) : models.own.data);
     if (path) {
-      const rows = Array.from({length: path.end - path.first}, (_, k) => path.first + k);
-      own.t = rows.map((i) => tracks.stamp[i] / MINUTE);
-      own.colour = rows.map((i) => content.lights[tracks.light[i]]);
-      for (const name of Object.keys(own)) if (tracks[name]) own[name] = rows.map((i) => tracks[name][i]);
+      // Each piece has an end on either side: there lines stop and areas are nothing.
+      const rows = path.pieces.flatMap(({first, end: last}) => Array.from({length: last - first + 2}, (_, k) =>
+        [Math.min(Math.max(first + k - 1, first), last - 1), k === 0 || k > last - first]));
+      own.t = rows.map(([i]) => tracks.stamp[i] / MINUTE);
+      own.colour = rows.map(([i]) => content.lights[tracks.light[i]]);
+      for (const name of Object.keys(own)) {
+        if (tracks[name]) own[name] = rows.map(([i, isEnd]) => (!isEnd ? tracks[name][i] : name.startsWith('p_') ? 0 : NaN));
+      }
     }
     fill('own', own);
     for (const line of byId('list').tBodies[0].rows) line.ariaSelected = String(Boolean(path) && Number(line.dataset.id) === path.id);
@@ -256,7 +273,7 @@
       if (row >= 0) consider(path, ...place(row, state.time));
     }
     if (!best && state.shown.has('paths')) {
-      for (const path of paths) for (let i = path.first; i < path.end; i++) consider(path, px[i], py[i]);
+      for (const path of paths.filter((one) => isNear(tracks.stamp, one))) for (let i = path.first; i < path.end; i++) consider(path, px[i], py[i]);
     }
     choose(best);
   }
@@ -325,6 +342,10 @@
   function connect() {
     if (!isPlan) document.querySelector('[data-layer=ellipses]').parentElement.hidden = true;
     document.querySelector('[data-layer=all_plots]').checked = !isPlan;
+    if (isLong) byId('whole').textContent = 'tracks near in time';
+    if (!isPlan) byId('gate').textContent = '\u2501';
+    byId('lead').hidden = !isPlan;
+    byId('lead').textContent = `The line ahead of a track is its way in ${content.lead} s.`;
     byId('time').min = scans[0];
     byId('time').max = end;
     byId('time').addEventListener('input', (event) => seek(Number(event.target.value)));

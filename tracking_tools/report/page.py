@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import datetime, timezone
 from html import escape
 from importlib.resources import files
 import json
@@ -16,6 +17,7 @@ from bokeh.embed import json_item
 from bokeh.resources import Resources
 import numpy as np
 
+from msg_adapters.message_types import LATEST
 from tracking_session.node_config import Configs
 from tracking_tools.arguments import make_folder
 from tracking_tools.bearing_frame import frame_of_tracks
@@ -44,10 +46,13 @@ from tracking_tools.report.parts import (
     settings_part,
     steps_part,
 )
+from tracking_tools.report.plan import KM, lead_time, plan_unit
 from tracking_tools.report.stage import bearing_record, plan_view
 from tracking_tools.scene import Scene
 
-MINUTE = 60.0
+MINUTE, HOUR = 60.0, 3600.0
+LONG = 3.0 * HOUR
+MILLENNIUM = 946_684_800.0  # stamps since then are of a clock, not of a simulation [s]
 
 
 def write_page(material: Material, path: Path | str) -> None:
@@ -106,8 +111,11 @@ def _content(material: Material, table: dict[str, Any]) -> dict[str, Any]:
     stamps = np.unique(table['stamp'])
     period = float(np.median(np.diff(stamps))) if len(stamps) > 1 else 1.0
     modes = len(modes_of(table))
+    unit, lead = KM, 0.0
     if isinstance(scene, Scene):
-        kind, stage, dimensions = 'plan', plan_view(), plan_dimensions(scene.published)
+        unit, lead = plan_unit(scene), lead_time(table)
+        kind, stage = 'plan', plan_view('km' if unit == KM else 'm')
+        dimensions = plan_dimensions(scene.published)
     else:
         kind, stage, dimensions = 'record', bearing_record(frame_of_tracks(scene)), 1
     own = own_panels(modes, dimensions)
@@ -120,6 +128,8 @@ def _content(material: Material, table: dict[str, Any]) -> dict[str, Any]:
         'kind': kind,
         'period': period,
         'modes': modes,
+        'unit': unit,
+        'lead': lead,
         'colours': COLOURS,
         'lights': list(LIGHT_COLOURS.values()),
         'faint': FAINT,
@@ -142,10 +152,24 @@ def _summary(material: Material, table: dict[str, Any]) -> str:
     plots = scene.plots if isinstance(scene, Scene) else scene.marks
     count, what = len(plots.get('time', ())), 'plots' if isinstance(scene, Scene) else 'marks'
     parts = [
-        f'{np.ptp(table["stamp"]) / MINUTE:.0f} minutes',
+        _duration(float(np.ptp(table['stamp']))) + _since(scene.begin),
         f'{len(np.unique(table["stamp"]))} scans with tracks',
         *([f'{count} {what}'] if count else []),
         *([f'{len(np.unique(scene.truth["id"]))} contacts'] if scene.has_truth else []),
         f'{len(np.unique(table["id"]))} confirmed tracks',
     ]
     return ' · '.join(parts)
+
+
+def _since(begin: float) -> str:
+    """Return when a recording began [s since the epoch], '' of simulated time."""
+    if not MILLENNIUM < begin < LATEST:
+        return ''
+    return f' from {datetime.fromtimestamp(begin, timezone.utc):%Y-%m-%d %H:%M:%S} UTC'
+
+
+def _duration(span: float) -> str:
+    """Return a time [s] in words."""
+    if span < 2.0 * MINUTE:
+        return f'{span:.0f} seconds'
+    return f'{span / MINUTE:.0f} minutes' if span < LONG else f'{span / HOUR:.1f} hours'

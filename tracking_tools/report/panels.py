@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msg_adapters.table import Columns
-from tracking_core.batches import Floats
+from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.chances import chi_square_bound
 from tracking_tools.evaluation import Judgement
 from tracking_tools.evaluation.units import UNITS
 from tracking_tools.picture_style import COLOURS, FAINT, INK, PANEL, PROBABILITY, TURN
 from tracking_tools.report.columns import AMBER, DARK, GREEN, LIGHTS, RED
 from tracking_tools.report.stage import dress, MINUTE
+from tracking_tools.scoring.stretches import absences
 
 LIGHT_COLOURS = {GREEN: '#43c59e', AMBER: '#f9c74f', RED: '#f25f5c', DARK: '#56657c'}
 WIDEST = 2000  # cells of the overview
@@ -93,17 +94,25 @@ def overview(table: Columns, period: float) -> Any:
 
 def gospa_panel(judgement: Judgement) -> Any:
     """Return the metric scan by scan, and how many contacts are missed and tracks false."""
-    scans = judgement.by_scan
-    unit, p = UNITS[judgement.sensor], judgement.gospa.power
+    unit, p, scans = UNITS[judgement.sensor], judgement.gospa.power, judgement.by_scan
+    scan, is_end = _pieces(scans.time)
+    time = scans.time[scan] / MINUTE
     figure = over_time('gospa', f'GOSPA [{unit.far_unit}]', 150)
-    figure.line(scans.time / MINUTE, unit.scale * scans.gospa, color=INK, legend_label='GOSPA')
+    figure.line(time, np.where(is_end, np.nan, unit.scale * scans.gospa[scan]), color=INK,
+                legend_label='GOSPA')  # fmt: skip
     one = unit.scale * (0.5 * judgement.gospa.cutoff**p) ** (1.0 / p)
     for name, colour in (('missed', PROBABILITY), ('false', LIGHT_COLOURS[RED])):
-        part = one * getattr(scans, name) ** (1.0 / p)
-        figure.varea(scans.time / MINUTE, 0.0 * part, part, color=colour, alpha=0.4,
-                     legend_label=name)  # fmt: skip
+        part = np.where(is_end, 0.0, one * getattr(scans, name)[scan] ** (1.0 / p))
+        figure.varea(time, 0.0 * part, part, color=colour, alpha=0.4, legend_label=name)
     _legend(figure)
     return figure
+
+
+def _pieces(time: Floats) -> tuple[Ints, Bools]:
+    """Return rows between pauses, each end of a piece once more, and which are such ends."""
+    parts = np.split(np.arange(len(time)), absences(np.zeros(len(time), np.int64), time))
+    ends = [np.pad(np.zeros(len(part), bool), 1, constant_values=True) for part in parts]
+    return np.concatenate([np.pad(part, 1, 'edge') for part in parts]), np.concatenate(ends)
 
 
 def histogram(step_times: Floats) -> Any:

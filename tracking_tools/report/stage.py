@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bokeh.models import BoxZoomTool, ColumnDataSource, Span
+from bokeh.models import BasicTickFormatter, BoxZoomTool, ColumnDataSource, Span
 import bokeh.plotting
 
 from tracking_tools.bearing_frame import Frame
@@ -32,13 +32,13 @@ LAYERS = {
 }
 
 
-def plan_view() -> Any:
-    """Return the plan view [km], empty."""
+def plan_view(unit: str) -> Any:
+    """Return the plan view in this unit, empty."""
     plan = dress(
         bokeh.plotting.figure(
             name='stage', sizing_mode='stretch_both', active_scroll='wheel_zoom', min_border=4,
-            tools=[*TOOLS, BoxZoomTool(match_aspect=True)], x_axis_label='east [km]',
-            y_axis_label='north [km]', x_range=(0.0, 1.0), y_range=(0.0, 1.0),
+            tools=[*TOOLS, BoxZoomTool(match_aspect=True)], x_axis_label=f'east [{unit}]',
+            y_axis_label=f'north [{unit}]', x_range=(0.0, 1.0), y_range=(0.0, 1.0),
         )
     )  # fmt: skip
     layers = sources()
@@ -52,6 +52,8 @@ def plan_view() -> Any:
                  fill_color='colour', fill_alpha=0.28, line_color='colour')  # fmt: skip
     plan.multi_line('xs', 'ys', source=layers['trails'], color='colour', line_width=2.2)
     plan.segment('x', 'y', 'x1', 'y1', source=layers['velocities'], color='colour', line_width=1.4)
+    for axis in plan.axis:
+        axis.formatter = BasicTickFormatter(use_scientific=False)
     _markers(plan, layers)
     return plan
 

@@ -5,7 +5,7 @@ How good are the tracks? Measures of tracks against truth, without ROS.
 
 Read ``records`` (what is compared), ``stretches`` (what ought to be held), ``matching`` (who is
 whose), ``continuity``, ``accuracy`` and ``consistency`` (how well), ``gospa`` and ``ospa`` (all in
-one figure), ``siap``, ``onsets``, and ``score`` (all measures beside the plots) in this order.
+one figure), ``siap``, ``onsets``, ``sampling`` and ``score`` (all beside the plots) in this order.
 """
 
 from tracking_tools.scoring.accuracy import Accuracy, plot_error, track_error

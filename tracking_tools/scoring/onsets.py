@@ -7,7 +7,6 @@ from __future__ import annotations
 import numpy as np
 
 from tracking_core.batches import Floats
-from tracking_core.rows import take
 from tracking_tools.scoring.matching import Matches
 from tracking_tools.scoring.records import TrackRows, Truth
 
@@ -29,21 +28,22 @@ def onset_delays(
     rows : TrackRows
         What the tracker said.
     probability : (N,) array
-        Of a manoeuvre, row by row.
+        Of a manoeuvre, row by row; NaN where the tracker does not tell.
     matches : Matches
         Of this contact.
     contact : Truth
         Its samples.
 
     """
-    time, told = rows.time[matches.row], probability[matches.row] >= SURE
+    time, tells = rows.time[matches.row], probability[matches.row]
+    known, told = np.isfinite(tells), tells >= SURE
     delays = []
     for first, last in zip(*_turns(contact), strict=True):
         onset = 0.5 * (contact.time[first - 1] + contact.time[first])
-        inside = (time >= onset) & (time <= contact.time[last])
+        inside = known & (time >= onset) & (time <= contact.time[last])
         if inside.any():
-            tells = time[inside & told]
-            delays.append(float(tells.min() - onset) if len(tells) else NAN)
+            sure = time[inside & told]
+            delays.append(float(sure.min() - onset) if len(sure) else NAN)
     return delays
 
 
@@ -58,5 +58,6 @@ def _turns(contact: Truth) -> tuple[list[int], list[int]]:
 
 def false_alarms(probability: Floats, matches: Matches) -> float:
     """Return in which share of the rows on straight contacts a manoeuvre was told."""
-    straight = take(matches, ~matches.turning)
-    return float((probability[straight.row] >= SURE).mean()) if len(straight) else NAN
+    told = probability[matches.row[~matches.turning]]
+    told = told[np.isfinite(told)]
+    return float((told >= SURE).mean()) if len(told) else NAN

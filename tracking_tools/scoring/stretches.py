@@ -54,15 +54,18 @@ class Stretches:
 
         """
         begin, end, ids = spans(truth)
-        first = np.searchsorted(starts, begin, side='right') - 1
-        last = np.searchsorted(starts, end, side='right') - 1
-        seen = (last >= 0) & (first < len(starts) - 1)
-        first, last = np.maximum(first, 0)[seen], np.minimum(last, len(starts) - 2)[seen]
-        ids = ids[seen]
+        pause = OUT_OF_SIGHT * float(np.median(np.diff(starts)))  # longer, the tracker was silent
+        over = np.minimum(starts[1:], starts[:-1] + pause)
+        first = np.searchsorted(over, begin, side='right')
+        last = np.searchsorted(starts[:-1], end, side='right') - 1
+        seen = first <= last
+        begin, end, ids = begin[seen], end[seen], ids[seen]
+        first, last = first[seen], last[seen]
         if len(ids) == 0:
             return Stretches(ids, first, last)
-        # An absence that no whole scan falls into is none.
-        away = (np.diff(ids) != 0) | (first[1:] > last[:-1] + 1)
+        # An absence that no whole scan falls into is none, unless the tracker was silent, too.
+        gone = (first[1:] > last[:-1] + 1) | (begin[1:] - end[:-1] > pause)
+        away = (np.diff(ids) != 0) | gone
         begins, ends = np.append(True, away), np.append(away, True)
         return Stretches(ids[begins], first[begins], last[ends])
 
@@ -94,9 +97,29 @@ def spans(truth: Truth) -> tuple[Floats, Floats, Ints]:
     """Return from when to when [s] each contact is there without a gap, and its id."""
     if len(truth.id) == 0:
         return np.zeros(0), np.zeros(0), np.zeros(0, np.int64)
-    step, same = np.diff(truth.time), np.diff(truth.id) == 0
-    usual = {c: np.median(step[same & (truth.id[1:] == c)]) for c in np.unique(truth.id[1:][same])}
-    longest = OUT_OF_SIGHT * np.array([usual.get(c, np.inf) for c in truth.id[1:]])
-    cut = np.flatnonzero(~same | (step > longest))
-    first, last = np.append(0, cut + 1), np.append(cut, len(truth.id) - 1)
+    cut = absences(truth.id, truth.time)
+    first, last = np.append(0, cut), np.append(cut, len(truth.id)) - 1
     return truth.time[first], truth.time[last], truth.id[first]
+
+
+def absences(ids: Ints, time: Floats) -> Ints:
+    """
+    Return the rows (C,) that begin another contact or follow an absence of the same one.
+
+    Parameters
+    ----------
+    ids, time : (N,) arrays
+        Of samples sorted by contact, then time [s].
+
+    """
+    other = ids[1:] != ids[:-1]
+    edges, step = np.flatnonzero(other) + 1, np.diff(time)
+    usual = [_usual(np.diff(part)) for part in np.split(time, edges)]
+    lengths = np.diff(np.concatenate([[0], edges, [len(ids)]]))
+    return np.flatnonzero(other | (step > OUT_OF_SIGHT * np.repeat(usual, lengths)[1:])) + 1
+
+
+def _usual(steps: Floats) -> float:
+    """Return the usual interval of a contact's samples, of which some may be copies [s]."""
+    steps = steps[steps > 0.0]
+    return float(np.median(steps)) if len(steps) else np.inf

@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from tracking_tools.bags import BadBag
 from tracking_tools.evaluation import evaluate, Judgement
 from tracking_tools.evaluation.text import plain
 from tracking_tools.parameter_file import configure
@@ -36,7 +37,9 @@ def work(task: Task) -> str:
         configs = configure(sensor.configs, dict(task.values))
         rules = task.rules if not task.source.is_scenario else ()
         topics = Topics.remapped(rules, sensor)
-        replay(recording, tracks, configs, topics, quiet=True, sensor=sensor)
+        summary = replay(recording, tracks, configs, topics, quiet=True, sensor=sensor)
+        if summary.unused:
+            raise BadBag(f'no message of {topics.plots} could be used: {summary.unused}')
         truth = Path(task.source.truth) if task.source.truth else recording
         judgement = evaluate(tracks, truth, task.yardstick, rules, task.sensor)
     result = {'task': task.identity, 'figures': _figures(judgement)}
