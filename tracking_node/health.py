@@ -32,6 +32,7 @@ class Health:
     pause: float = 0.0  # between the last two plots [s]
     ownship_at: float = -math.inf
     shared: tuple[str, ...] = ()  # topics of ours on which others publish, too
+    unheard: tuple[str, ...] = ()  # inputs on which all publishers are of another type or QoS
     _told: Counter[str] = field(default_factory=Counter)  # complaints up to the last report
     _begun: tuple[float, float] = (0.0, 0.0)
 
@@ -78,6 +79,8 @@ class Health:
         crowded += self.shared
         if crowded:
             yield f'several publishers on {" and ".join(crowded)}'
+        if self.unheard:
+            yield f'no publisher fits on {" and ".join(self.unheard)}'
         yield from sorted(new)
         doubts = chain(session.instrument.doubts(), session.whereabouts.doubts())
         yield from (doubt.what for doubt in doubts)

@@ -4,9 +4,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from tracking_node.clocks import has_no_clock, NO_CLOCK
+
+
+class Unheard:
+    """Inputs on which somebody publishes, but nobody of the type and QoS that fit; since when."""
+
+    def __init__(self) -> None:
+        self.since: dict[str, float] = {}  # by topic [s]
+
+    def look(self, node: Any, subscriptions: Mapping[str, Any], now: float) -> None:
+        """Look once more at who is there and who is heard, at the time `now` [s]."""
+        for topic, subscription in subscriptions.items():
+            if subscription.get_publisher_count() or not node.count_publishers(
+                subscription.topic_name
+            ):
+                self.since.pop(topic, None)
+            else:
+                self.since.setdefault(topic, now)
+
+    def longer(self, seconds: float, now: float) -> set[str]:
+        """Return the topics on which that has been so for longer than `seconds`."""
+        return {topic for topic, since in self.since.items() if now - since > seconds}
 
 
 def explain_silence(node: Any, subscription: Any) -> str:

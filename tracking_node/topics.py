@@ -186,5 +186,4 @@ class LiveTopics:
     def _tick(self) -> None:
         """Once a second: draw what was not due before, and report."""
         self._markers.draw(self._session, self._node_config.markers)
-        plots = self._inputs.subscriptions[self._topic]
-        self._reporter.tick(plots, self._tracks, self._is_active)
+        self._reporter.tick(self._inputs.subscriptions, self._tracks, self._is_active)
