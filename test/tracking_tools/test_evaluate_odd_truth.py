@@ -103,6 +103,17 @@ def test_contact_in_two_places_at_one_time_is_refused(write_bag: WriteBag) -> No
         evaluate(tracks, write_bag('one_id', '/truth', tables))
 
 
+@pytest.mark.parametrize('again', [slice(None), slice(3, 4)])
+def test_two_tables_of_one_moment_are_refused(write_bag: WriteBag, again: slice) -> None:
+    """A bag that looped while it was recorded, or a second tracker on the topic."""
+    tracks = write_bag('tracks', RADAR, [*tracked(), *tracked()[again]])
+    truth = write_bag('truth', '/truth', [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)])
+    count = SCANS + len(tracked()[again])
+    words = f'{RADAR} has {count} tables, but of {SCANS} moments: were the plots played again'
+    with pytest.raises(BadBag, match=words):
+        evaluate(tracks, truth)
+
+
 def test_truth_without_a_single_place_is_refused(write_bag: WriteBag) -> None:
     """Says which columns a row must have."""
     tables = [(0.0, {**state(0.0), 'x': np.full(2, np.nan)})]

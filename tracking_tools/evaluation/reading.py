@@ -160,11 +160,16 @@ def _read_tracks(bag: Path | str, topics: Topics, kind: str) -> tuple[Columns, F
     table = read_rows(bag, topics.tracks, convert)
     if not stamps:
         raise BadBag(f'{bag}: {topics.tracks} has no messages')
+    moments = np.unique(stamps)
+    if len(moments) < len(stamps):
+        told = f'{len(stamps)} tables, but of {len(moments)} moments'
+        why = 'were the plots played again meanwhile, or are there two trackers of one name?'
+        raise BadBag(f'{bag}: {topics.tracks} has {told}: {why}')
     check_table(table, kind, f'{topics.tracks} in {bag}')
     table = table or no_rows(NEEDED[kind])
     confirmed = choose(table, judged_rows(table, kind))
     order = np.argsort(confirmed['stamp'], kind='stable')
-    return choose(confirmed, order), np.unique(stamps)
+    return choose(confirmed, order), moments
 
 
 def _check_topic(bag: Path | str, topic: str, name: str) -> None:
