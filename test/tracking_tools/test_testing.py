@@ -57,6 +57,15 @@ def test_waiting_says_for_what(ros_domain_id):
         probe.collect(3, deadline=0.1)
 
 
+def test_waiting_in_vain_says_which_nodes_are_there(ros_domain_id):
+    """A tracker in another namespace than was thought is seen at once."""
+    with Peer(ros_domain_id) as peer, Peer(ros_domain_id, 'radar_tracker', 'ship') as other:
+        peer.wait_for_node(other.node.get_fully_qualified_name())
+        nodes = r"service radar_tracker/get_state; nodes: \['/ship/radar_tracker'\]"
+        with pytest.raises(TimeoutError, match=nodes):
+            peer.state('radar_tracker', deadline=0.1)
+
+
 def test_call_asks_again_when_the_answer_does_not_come(ros_domain_id):
     """What changes nothing may be asked twice; the first answer ends it."""
     asked = []
