@@ -13,6 +13,11 @@ from msg_adapters.radar_tracks import NAME as RADAR_TRACKS
 from tracking_core.config import parameter, validate
 
 Configs = tuple[Any, ...]  # of the tracker, then of its node
+# Parameters that only say something; in the dump of a node they are no more.
+TELLING = {
+    'input_types_available': 'what input_type can be here',
+    'output_types_available': 'what output_type can be here',
+}
 
 
 def field_name() -> Any:
