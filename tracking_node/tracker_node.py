@@ -107,7 +107,9 @@ class TrackerNode(LifecycleNode):
 
     @reported
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Forget everything, for good."""
+        """Forget everything, for good; the screens are cleared where it was active."""
+        if self._live is not None:
+            self._live.deactivate()
         self._close()
         return super().on_shutdown(state)
 
