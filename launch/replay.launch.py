@@ -61,7 +61,6 @@ def _tracker():
         namespace=LaunchConfiguration('namespace'),
         output='screen',
         parameters=[
-            LaunchConfiguration('params_file'),
             {
                 **SIMULATED,
                 'autostart': ParameterValue(LaunchConfiguration('autostart'), value_type=bool),
@@ -72,8 +71,12 @@ def _tracker():
             ('bearings', LaunchConfiguration('bearings')),
             ('ownship', LaunchConfiguration('ownship')),
         ],
-        arguments=['--ros-args', '--log-level', LaunchConfiguration('log_level')],
-    )
+        arguments=[
+            # In parameters, launch skips a file that is not there; the node ends and names it.
+            '--ros-args', '--params-file', LaunchConfiguration('params_file'),
+            '--log-level', LaunchConfiguration('log_level'),
+        ],
+    )  # fmt: skip
 
 
 def _recorder():

@@ -44,13 +44,14 @@ def _tracker():
         name='sonar_tracker',
         namespace=LaunchConfiguration('namespace'),
         output='screen',
-        parameters=[
-            LaunchConfiguration('params_file'),
-            {name: _switch(name) for name in ('use_sim_time', 'autostart')},
-        ],
+        parameters=[{name: _switch(name) for name in ('use_sim_time', 'autostart')}],
         remappings=[(topic, LaunchConfiguration(topic)) for topic in TOPICS],
-        arguments=['--ros-args', '--log-level', LaunchConfiguration('log_level')],
-    )
+        arguments=[
+            # In parameters, launch skips a file that is not there; the node ends and names it.
+            '--ros-args', '--params-file', LaunchConfiguration('params_file'),
+            '--log-level', LaunchConfiguration('log_level'),
+        ],
+    )  # fmt: skip
 
 
 def _switch(name):

@@ -50,7 +50,6 @@ def _tracker(sensor, tracker, topic):
         namespace=[LaunchConfiguration('namespace'), '/', sensor],
         output='screen',
         parameters=[
-            LaunchConfiguration(f'{sensor}_params_file'),
             {
                 name: ParameterValue(LaunchConfiguration(name), value_type=bool)
                 for name in ('use_sim_time', 'autostart')
@@ -60,5 +59,9 @@ def _tracker(sensor, tracker, topic):
             (topic, LaunchConfiguration(f'{sensor}_{topic}')),
             ('ownship', LaunchConfiguration('ownship')),
         ],
-        arguments=['--ros-args', '--log-level', LaunchConfiguration('log_level')],
-    )
+        arguments=[
+            # In parameters, launch skips a file that is not there; the node ends and names it.
+            '--ros-args', '--params-file', LaunchConfiguration(f'{sensor}_params_file'),
+            '--log-level', LaunchConfiguration('log_level'),
+        ],
+    )  # fmt: skip

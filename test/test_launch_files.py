@@ -18,6 +18,8 @@ from typing import Any
 
 import pytest
 
+from tracking_tools.testing import NodeProcess, python_node
+
 ROOT = Path(__file__).parent.parent
 LAUNCH_FILES = sorted((ROOT / 'launch').glob('*.launch.py'))
 COMMON_ARGUMENTS = {'namespace', 'use_sim_time', 'autostart', 'log_level'}
@@ -198,8 +200,7 @@ def test_arguments_are_declared_and_used(entities: list[Any]) -> None:
     used = {part.variable_name for part in _only(LaunchConfiguration, list(_parts(entities)))}
     assert {argument.name for argument in declared} == used
     assert used >= COMMON_ARGUMENTS
-    files = [name for name in used if name.endswith('params_file')]
-    assert len(files) == len(_trackers(entities))
+    assert sum(name.endswith('params_file') for name in used) == len(_trackers(entities))
     assert all(argument.description for argument in declared)
     assert all(argument.default_value is not None for argument in declared)
 
@@ -232,7 +233,19 @@ def test_preset_is_a_name_without_a_path(sensor: str, monkeypatch: pytest.Monkey
     assert _text(given['params_file'], given) == 'share/contact_tracking/config/marine_radar.yaml'
     (node,) = _trackers(entities)
     given = _values(entities, preset='marine_radar.yaml', params_file='/my/radar.yaml')
-    assert _text(node.parameters[0], given) == '/my/radar.yaml'
+    assert '/my/radar.yaml' in [_text(word, given) for word in node.arguments]
+
+
+def test_parameter_file_that_is_not_there_reaches_the_node(
+    entities: list[Any], ros_domain_id: int, tmp_path: Path
+) -> None:
+    """The node says so; launch would leave it out of the parameters with a warning."""
+    slips = {name: 'slip' for name in _values(entities) if name.endswith('params_file')}
+    given, node = _values(entities, sensor='radar', **slips), _trackers(entities)[-1]
+    words = [_text(word, given) for word in (node.executable, *node.arguments)]
+    command = python_node(f'{words[0]}.node')[:-1] + words[1:]
+    with NodeProcess(command, ros_domain_id, tmp_path / 'log', folder=ROOT) as process:
+        assert (process.wait(), 'there is no parameter file slip' in process.log) == (1, True)
 
 
 def test_switches_arrive_as_booleans(entities: list[Any]) -> None:

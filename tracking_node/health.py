@@ -32,6 +32,7 @@ class Health:
     pause: float = 0.0  # between the last two plots [s]
     ownship_at: float = -math.inf
     shared: tuple[str, ...] = ()  # topics of ours on which others publish, too
+    unheard: tuple[str, ...] = ()  # inputs on which all publishers are of another type or QoS
     _told: Counter[str] = field(default_factory=Counter)  # complaints up to the last report
     _begun: tuple[float, float] = (0.0, 0.0)
 
@@ -73,14 +74,19 @@ class Health:
             yield f'too slow: only the newest {topic} are used'
         if len(session.tracks) >= NEAR_CAPACITY * session.instrument.tracker.config.max_tracks:
             yield 'close to max_tracks'
-        sensors = (topic, 'ownship')  # while orders may come from several consoles
-        crowded = [name for name in sensors if session.counts[name].publishers > 1]
-        crowded += self.shared
-        if crowded:
+        if crowded := self.crowded(session):
             yield f'several publishers on {" and ".join(crowded)}'
+        if self.unheard:
+            yield f'no publisher fits on {" and ".join(self.unheard)}'
         yield from sorted(new)
         doubts = chain(session.instrument.doubts(), session.whereabouts.doubts())
         yield from (doubt.what for doubt in doubts)
+
+    def crowded(self, session: Session) -> list[str]:
+        """Return the topics with several publishers where one is wanted."""
+        sensors = (session.instrument.topic, 'ownship')  # orders may come from several consoles
+        crowded = [name for name in sensors if session.counts[name].publishers > 1]
+        return crowded + list(self.shared)
 
     def told(self, session: Session) -> None:
         """Take note that complaints up to now have been reported."""

@@ -22,11 +22,11 @@ from rcl_interfaces.msg import (
 
 from tracking_core.config import hint, Parameter, parameters, with_values
 from tracking_node.qos_overrides import complaint, is_override
-from tracking_session.node_config import Configs
+from tracking_session.node_config import Configs, TELLING
 from tracking_session.other_sensor import other_sensor
 
-# What rclpy declares by itself.
-_OF_ROS = ('use_sim_time', 'start_type_description_service')
+# What rclpy declares by itself, and what only says something.
+_OTHERS = ('use_sim_time', 'start_type_description_service', *TELLING)
 _WIDEST_INTEGER = 2**63 - 1
 
 
@@ -173,6 +173,6 @@ def _in_words(own: Mapping[str, Any], text: str) -> str:
 
 def _unknown(given: Mapping[str, Any], known: set[str]) -> dict[str, str]:
     """Return the names that no config has, each with a word on what was probably meant, or ''."""
-    of_ros = {name for name in given if name in _OF_ROS or is_override(name)}
-    unknown = given.keys() - known - of_ros
+    others = {name for name in given if name in _OTHERS or is_override(name)}
+    unknown = given.keys() - known - others
     return {name: hint(name, known) or other_sensor([name], known) for name in sorted(unknown)}

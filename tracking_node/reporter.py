@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 import time
 from typing import Any
 
@@ -13,8 +14,10 @@ from msg_adapters.diagnostics import to_diagnostics
 from msg_adapters.message_types import MessageTypes
 from tracking_node.health import Health, QUIET
 from tracking_node.openings import Openings
-from tracking_node.silence import explain_silence
+from tracking_node.silence import explain_crowd, explain_silence, Lasting, unheard
 from tracking_session.session import Session
+
+CROWDED = 30.0  # s that are worth a word: the graph knows of a node that was killed for 20 s
 
 
 class Reporter:
@@ -45,20 +48,22 @@ class Reporter:
     def begin(self) -> None:
         """Begin anew, as the node does when it becomes active."""
         self.health, self._silence_is_told = Health(time.monotonic()), False
+        self._unheard, self._crowded = Lasting(), Lasting()
+        self._explained, self._named = set[str](), set[str]()  # topics of these two
 
     def plots_come(self) -> None:
         """Take note that plots have just come."""
         self.health.plots_come(time.monotonic())
         self._silence_is_told = True
 
-    def tick(self, subscription: Any, tracks: Any, is_active: bool) -> None:
+    def tick(self, subscriptions: Mapping[str, Any], tracks: Any, is_active: bool) -> None:
         """
         Report once a second.
 
         Parameters
         ----------
-        subscription : Subscription
-            Of the plots; if nothing comes on it the log says once why.
+        subscriptions : mapping
+            By topic; if nothing comes of the plots, or a publisher does not fit, the log says why.
         tracks : Publisher
             Nobody else should publish there; another node of the same name does.
         is_active : bool
@@ -67,13 +72,36 @@ class Reporter:
         """
         is_shared = self._node.count_publishers(tracks.topic_name) > 1
         self.health.shared = (tracks.topic_name,) if is_shared else ()
-        silent = time.monotonic() - self.health.started
-        if is_active and not self._silence_is_told and silent > QUIET:
-            self._silence_is_told = True
-            self._node.get_logger().warning(explain_silence(self._node, subscription))
+        if is_active:
+            now = time.monotonic()
+            self._explain(subscriptions, now)
+            self._name_crowds(subscriptions, now)
         self._level = ''
         self.report(is_active)
         self.health.told(self._session)
+
+    def _explain(self, subscriptions: Mapping[str, Any], now: float) -> None:
+        """Say once of whom nothing comes, and why; of the plots also if nobody is there."""
+        self._unheard.take(unheard(self._node, subscriptions), now)
+        silent, topic = self._unheard.longer(QUIET, now), self._session.instrument.topic
+        self.health.unheard = tuple(sorted(silent))
+        new = silent - self._explained
+        is_told = self._silence_is_told or topic in self._unheard.since
+        if not is_told and now - self.health.started > QUIET:
+            self._silence_is_told = True
+            new.add(topic)
+        for name in sorted(new):
+            self._node.get_logger().warning(explain_silence(self._node, subscriptions[name]))
+        self._explained = silent
+
+    def _name_crowds(self, subscriptions: Mapping[str, Any], now: float) -> None:
+        """Say once who publishes where one publisher is wanted."""
+        self._crowded.take(self.health.crowded(self._session), now)
+        crowded = self._crowded.longer(CROWDED, now)
+        for name in sorted(crowded - self._named):
+            topic = subscriptions[name].topic_name if name in subscriptions else name
+            self._node.get_logger().warning(explain_crowd(self._node, topic))
+        self._named = crowded
 
     def report(self, is_active: bool) -> None:
         """Publish the diagnostics if their level is not the one that was said last."""

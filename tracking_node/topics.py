@@ -53,7 +53,7 @@ class LiveTopics:
         self._node, self._node_config, self._types = node, configs[1], rclpy_types()
         self._session = make_session(*configs, self._types, node.get_logger())
         self._topic = self._session.instrument.topic
-        self._keeper = Keeper(self._session, configs)
+        self._keeper = Keeper(self._session, configs, node.get_fully_qualified_name())
         self._clock_check, self._is_active = ClockCheck(node, self._topic), False
         self._openings = Openings(node)
         try:
@@ -186,5 +186,4 @@ class LiveTopics:
     def _tick(self) -> None:
         """Once a second: draw what was not due before, and report."""
         self._markers.draw(self._session, self._node_config.markers)
-        plots = self._inputs.subscriptions[self._topic]
-        self._reporter.tick(plots, self._tracks, self._is_active)
+        self._reporter.tick(self._inputs.subscriptions, self._tracks, self._is_active)

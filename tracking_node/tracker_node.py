@@ -19,7 +19,7 @@ from tracking_node.parameters import NodeParameters
 from tracking_node.run import NotStarted
 from tracking_node.topics import LiveTopics, MakeSession
 from tracking_node.transitions import refuse_wrong_transitions, reported
-from tracking_session.node_config import Configs
+from tracking_session.node_config import Configs, TELLING
 
 
 class TrackerNode(LifecycleNode):
@@ -50,17 +50,17 @@ class TrackerNode(LifecycleNode):
         self._live: LiveTopics | None = None
         self._settings = NodeParameters(self, configs, self._reconfigure)
         self._settings.tell()
-        self._tell('input_types_available', available(), 'what input_type can be here')
-        self._tell('output_types_available', outputs(), 'what output_type can be here')
+        for told, values in zip(TELLING, (available(), outputs()), strict=True):
+            self._tell(told, values)
         _, node_config = self._settings.configs
         if node_config.autostart:
             self._start()
 
-    def _tell(self, name: str, values: list[str], what: str) -> None:
+    def _tell(self, name: str, values: list[str]) -> None:
         """Declare a parameter that only says something."""
         self.declare_parameter(
             name, values or ['none'], ignore_override=True,
-            descriptor=ParameterDescriptor(description=what, read_only=True),
+            descriptor=ParameterDescriptor(description=TELLING[name], read_only=True),
         )  # fmt: skip
 
     def _start(self) -> None:
@@ -107,7 +107,9 @@ class TrackerNode(LifecycleNode):
 
     @reported
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Forget everything, for good."""
+        """Forget everything, for good; the screens are cleared where it was active."""
+        if self._live is not None:
+            self._live.deactivate()
         self._close()
         return super().on_shutdown(state)
 

@@ -13,6 +13,11 @@ from msg_adapters.radar_tracks import NAME as RADAR_TRACKS
 from tracking_core.config import parameter, validate
 
 Configs = tuple[Any, ...]  # of the tracker, then of its node
+# Parameters that only say something; in the dump of a node they are no more.
+TELLING = {
+    'input_types_available': 'what input_type can be here',
+    'output_types_available': 'what output_type can be here',
+}
 
 
 def field_name() -> Any:
@@ -47,8 +52,9 @@ class SnapshotConfig:
     """How tracks outlive their node."""
 
     file: str = parameter(
-        '', unit='', doc='tracks are kept here for a restart of the node; empty: they are not'
-    )
+        '', unit='',
+        doc='tracks are kept here for a restart of the node: one file for each; empty: none are',
+    )  # fmt: skip
     period: float = parameter(5.0, unit='s', doc='time between two writings', low=0.1, high=3600.0)
     max_age: float = parameter(
         60.0, unit='s', doc='tracks that were kept longer ago are not restored', low=0.0, high=1e6

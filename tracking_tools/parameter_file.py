@@ -11,12 +11,12 @@ from typing import Any
 import yaml
 
 from tracking_core.config import hint, parameters, with_values
-from tracking_session.node_config import Configs
+from tracking_session.node_config import Configs, TELLING
 from tracking_session.other_sensor import other_sensor
 from tracking_session.parameter_blocks import BadParameterFile, blocks_for, Loader, read_blocks
 
-# Parameters that every node of ROS has; they mean nothing to a recording.
-OF_ROS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
+# Parameters that every node of ROS has, or that only say something; nothing to a recording.
+OTHERS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service', *TELLING)
 
 
 def read_parameter_file(path: Path | str, node: str) -> dict[str, Any]:
@@ -72,7 +72,7 @@ def configure(configs: Configs, values: Mapping[str, Any]) -> Configs:
     names = [[entry.name for entry in parameters(config)] for config in configs]
     known = [name for own in names for name in own]
     for name in values:
-        if name not in known and not name.startswith(OF_ROS):
+        if name not in known and not name.startswith(OTHERS):
             meant = hint(name, known) or other_sensor([name], known)
             raise ValueError(f'unknown parameter {name}{meant}')
     return tuple(

@@ -112,7 +112,7 @@ class Peer:
     ) -> None:
         """Let messages come until something holds; raise TimeoutError after `deadline` [s]."""
         if not self.spin(is_done, deadline):
-            raise TimeoutError(f'waited {deadline:g} s in vain for {what}')
+            raise TimeoutError(f'waited {deadline:g} s in vain for {what}; nodes: {self._nodes()}')
 
     def ask(
         self,
@@ -143,11 +143,12 @@ class Peer:
 
     def wait_for_node(self, name: str, deadline: float = DEADLINE) -> None:
         """Wait until a node of this full name is in the graph: it can be asked for its topics."""
-        place, _, own = name.rpartition('/')
-        wanted = own, place or '/'
-        self.spin_until(
-            lambda: wanted in self.node.get_node_names_and_namespaces(), f'node {name}', deadline
-        )
+        self.spin_until(lambda: f'/{name.lstrip("/")}' in self._nodes(), f'node {name}', deadline)
+
+    def _nodes(self) -> list[str]:
+        """Return the full names of the other nodes in the graph."""
+        own, found = self.node.get_name(), self.node.get_node_names_and_namespaces()
+        return sorted(f'{place.rstrip("/")}/{name}' for name, place in found if name != own)
 
     def call(
         self, kind: Any, service: str, request: Any, deadline: float = DEADLINE,

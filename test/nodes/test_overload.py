@@ -49,11 +49,9 @@ def test_node_that_is_too_slow_uses_the_newest_plots_and_counts_the_rest(start_n
     assert any('too slow: only the newest plots are used' in text for text in texts)
 
 
-def test_two_publishers_of_plots_are_reported(start_node, probe):
-    """A recording and a radar on one topic: the diagnostics warn."""
-    start_node()
-    probe.meet()
-    second = probe.tell(type(probe.tables[-1]), 'plots')
+def share_plots(probe):
+    """Let a second publisher of plots come, until the diagnostics warn of it."""
+    second = probe.tell(probe.plots.msg_type, 'plots')
     probe.peer.wait_until_matched(second)
     warning = 'several publishers on plots'
 
@@ -65,6 +63,13 @@ def test_two_publishers_of_plots_are_reported(start_node, probe):
         return any(warning in m.status[0].message for m in probe.diagnostics)
 
     probe.peer.ask(send, is_warned, warning, again=0.2)
+
+
+def test_two_publishers_of_plots_are_reported(start_node, probe):
+    """A recording and a radar on one topic: the diagnostics warn."""
+    start_node()
+    probe.meet()
+    share_plots(probe)
     probe.spin_until(lambda: probe.diagnosed('plots publishers') == '2', 'the number of them')
 
 
@@ -85,6 +90,21 @@ def test_two_trackers_of_one_name_are_reported(start_node, probe):
     probe.spin_until(are_warned(True), warning)
     twin.stop()
     probe.spin_until(are_warned(False), 'no word when it is alone again')
+
+
+@pytest.mark.slow
+def test_publishers_that_stay_where_one_is_wanted_are_named(start_node, probe):
+    """A second radar on the topic, a second tracker of the same name: once, in the log."""
+    node = start_node()
+    probe.meet()
+    share_plots(probe)
+    twin = start_node()
+    line = node.wait_for_line('several publishers on /plots', 50.0)
+    assert 'on /plots: /probe, /probe; one is wanted' in line
+    for each in (node, twin):
+        line = each.wait_for_line('several publishers on /radar_tracker/tracks', 50.0)
+        assert 'tracks: /radar_tracker, /radar_tracker; give each node its own name' in line
+    assert node.log.count('several publishers') == 2
 
 
 def test_limits_of_tracks_and_plots_hold(start_node, probe):

@@ -7,12 +7,14 @@ from pathlib import Path
 
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import GetParameters, SetParametersAtomically
+from rcl_interfaces.srv import GetParameters, ListParameters, SetParametersAtomically
+from rclpy.parameter import parameter_value_to_python
+import yaml
 
 from tracking_core.config import parameters
-from tracking_tools.parameter_file import read_parameter_file
+from tracking_tools.parameter_file import configure, read_parameter_file
 from tracking_tools.sensors import SENSORS
-from tracking_tools.testing import NodeProcess, Peer, python_node
+from tracking_tools.testing import NodeProcess, Peer, python_node, RADAR
 
 ROOT = Path(__file__).parents[2]
 PRESETS = sorted((ROOT / 'config').glob('*.yaml'))
@@ -104,6 +106,28 @@ def test_parameter_files_are_told_apart(start_node, tmp_path):
     line = node.wait_for_line('no parameters from')
     assert 'foreign.yaml' in line
     assert 'are for /radar_traker, none for /radar_tracker' in line
+
+
+@pytest.mark.parametrize('sensor', ['radar', 'sonar'], indirect=True)
+def test_dump_of_a_node_is_a_file_for_it_and_for_a_replay(start_node, probe, sensor, tmp_path):
+    """All that `ros2 param dump` writes may be given again, without a word."""
+    first, name = start_node(), sensor.node
+    probe.peer.wait_until_active(name)
+    listing = probe.call(ListParameters, f'{name}/list_parameters', ListParameters.Request())
+    names = listing.result.names
+    request = GetParameters.Request(names=names)
+    values = probe.call(GetParameters, f'{name}/get_parameters', request, again=1.0).values
+    dump = dict(zip(names, map(parameter_value_to_python, values), strict=True))
+    file = tmp_path / 'dump.yaml'
+    file.write_text(yaml.dump({f'/{name}': {'ros__parameters': dump}}))
+    first.stop()
+    node = start_node(arguments=['--params-file', str(file)])
+    line = node.wait_for_line('parameters come from')
+    assert f'{len(names)} parameters' in line
+    probe.peer.wait_until_active(name)
+    assert 'WARN' not in node.log
+    kind = SENSORS['radar' if name == RADAR.node else 'sonar']
+    assert configure(kind.configs, read_parameter_file(file, f'/{name}')) == kind.configs
 
 
 def test_parameter_file_of_the_other_sensor_is_told(start_node):

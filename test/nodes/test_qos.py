@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whoever speaks or listens, reliably or not, is connected, and a silence is explained."""
 
+from geometry_msgs.msg import PoseStamped
 import numpy as np
 import pytest
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from sensor_msgs.msg import PointCloud2
+from sensor_msgs.msg import LaserScan, PointCloud2
 
 BEST_EFFORT, RELIABLE = ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE
 VOLATILE = DurabilityPolicy.VOLATILE
@@ -91,6 +92,28 @@ def test_silence_without_any_publisher_or_clock_is_explained(start_node, sensor)
     assert 'sensor_msgs/msg/PointCloud2' in line
     assert 'nobody publishes there' in line
     assert 'use_sim_time is true, but nothing has come on /clock either' in line
+
+
+@pytest.mark.slow
+def test_publishers_that_do_not_fit_are_told_whenever_they_come(start_node, probe):
+    """Of every input: own ship of another type leaves the sensor standing still; a late driver."""
+    node = start_node(arguments=['-r', 'plots:=points'])
+    probe.tell(PoseStamped, 'ownship')
+    node.wait_for_line('nobody publishes there')
+    own_ship = node.wait_for_line('nothing has come on /ownship')
+    assert 'nav_msgs/msg/Odometry' in own_ship
+    assert 'publishers there: probe (geometry_msgs/msg/PoseStamped, reliable' in own_ship
+    driver = probe.tell(LaserScan, 'points')
+    node.wait_for_line('publishers there: probe (sensor_msgs/msg/LaserScan')
+
+    def wait_until_said(what):
+        heard = probe.diagnostics
+        probe.spin_until(lambda: heard and heard[-1].status[0].message.endswith(what), what)
+
+    wait_until_said('no publisher fits on ownship and plots')
+    probe.node.destroy_publisher(driver)
+    wait_until_said('no publisher fits on ownship')
+    assert node.log.count('nothing has come on') == 3
 
 
 def test_latency_and_losses_are_in_the_diagnostics(start_node, probe):

@@ -5,6 +5,7 @@
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Odometry
 import numpy as np
+import pytest
 from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
@@ -48,17 +49,21 @@ def test_views_come_while_somebody_subscribes(start_node, probe):
     assert {msg.child_frame_id for msg in odometry[-3:]} == names
 
 
-def test_screen_shows_no_tracks_of_another_run_and_none_after_a_reset(start_node, probe):
-    """A viewer outlives a node that was killed; nobody waits for plots to see a reset."""
+@pytest.mark.parametrize('end', ['reset', 'deactivate', 'active_shutdown'])
+def test_screen_shows_no_tracks_of_another_run_and_none_after_a_reset(start_node, probe, end):
+    """A viewer outlives a node that was killed; nobody waits for plots to see an end."""
     screen, markers = Screen(), []
     screen.markers['gate', 77] = None  # drawn by the node that was killed
     start_node('markers.rate:=100.0')
-    end = probe.hear(MarkerArray, 'radar_tracker/markers', markers)
+    viewer = probe.hear(MarkerArray, 'radar_tracker/markers', markers)
     probe.meet()
-    probe.peer.wait_until_matched(end)
+    probe.peer.wait_until_matched(viewer)
     ids = set(probe.confirmed()['id'].tolist())
     probe.spin_until(lambda: screen.take_all(markers) and screen.ids() == ids, 'the tracks alone')
-    probe.reset()
+    if end == 'reset':
+        probe.reset()
+    else:
+        assert probe.peer.change_state('radar_tracker', end)
     probe.spin_until(lambda: screen.take_all(markers) and not screen.ids(), 'a clear screen')
 
 

@@ -32,10 +32,11 @@ def test_lines_of_the_page_are_those_that_nodes_print(start_node, ros_domain_id,
         start_node('use_sim_time:=true'),
         start_node('sensor.detection_probability:=1.5'),
         start_node('input_type:=radar_msgs/RadarScan'),
+        start_node(arguments=['--params-file', str(tmp_path / 'marine_radar')]),
     ]
     for node in nodes[:2]:
         node.wait_for_line('nothing has come')
-    assert [node.wait() for node in nodes[2:]] == [1, 1]
+    assert [node.wait() for node in nodes[2:]] == [1, 1, 1]
     with TrackerProbe(ros_domain_id, sensor) as probe:
         probe.peer.wait_until_matched(probe.plots)
 
@@ -46,5 +47,5 @@ def test_lines_of_the_page_are_those_that_nodes_print(start_node, ros_domain_id,
         probe.spin_until(is_told, 'a word on the clock')
     said = ''.join(node.log for node in nodes).replace(f'{tmp_path}/', '')
     printed = [line for line in PAGE.read_text().splitlines() if line.startswith(OF_NODES)]
-    assert len(printed) == 7
+    assert len(printed) == 8
     assert {normal(line) for line in printed} <= {normal(line) for line in said.splitlines()}

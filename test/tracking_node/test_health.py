@@ -74,6 +74,8 @@ def test_level_names_all_that_is_wrong_until_it_was_told(session):
     for orders in ('acquire', 'cancel'):
         session.counts[orders].received(1, 2)  # of several consoles
     assert health.level(session, 100.0) == ('OK', 'tracking')
+    health.unheard = ('cancel', 'ownship')
+    assert health.level(session, 100.0) == ('WARN', 'no publisher fits on cancel and ownship')
 
 
 def test_level_says_that_own_ship_contradicts_itself(session):

@@ -36,12 +36,12 @@ class Lines(list):
 class Station:
     """A session with its keeper, and a clock that the test turns."""
 
-    def __init__(self, sensor, path, now=0.0, **parameters):
+    def __init__(self, sensor, path, now=0.0, name='', **parameters):
         kind, self.lines, self.now, self.sensor = SENSORS[sensor], Lines(), now, sensor
         tracker, node = configure(kind.configs, parameters)
         configs = tracker, replace(node, snapshot=SnapshotConfig(file=str(path)))
         self.session = kind.make_session(*configs, TYPES, self.lines)
-        self.keeper = Keeper(self.session, configs, clock=lambda: self.now)
+        self.keeper = Keeper(self.session, configs, name, clock=lambda: self.now)
         self.keeper.open(lambda *_: None, now)
 
     def scan(self, number):
@@ -192,6 +192,19 @@ def test_file_of_another_sensor_is_refused(path):
     station.scan(0)
     station.keeper.save()
     assert 'hears bearings, this one hears plots' in Station('radar', path).lines[-1]
+
+
+def test_file_is_of_one_node(path):
+    """Of two radars with one parameter file neither takes up the other's tracks; both say why."""
+    stations = [Station('radar', path, name=name) for name in ('/bow/radar', '/stern/radar')]
+    for number in range(2):
+        for station in stations:
+            station.scan(number)
+            station.keeper.save()
+    warning = f'snapshot is written by another node, too: {path}; give each'
+    assert all(any(warning in line for line in station.lines) for station in stations)
+    said = Station('radar', path, stations[0].now, '/bow/radar').lines[-1]
+    assert 'is not used: it is of /stern/radar, this node is /bow/radar' in said
 
 
 def test_contents_of_another_form_are_refused(kept, sensor, path):

@@ -112,6 +112,20 @@ def test_contact_in_two_places_at_one_time_is_refused(write_bag: WriteBag) -> No
         evaluate(tracks, write_bag('one_id', '/truth', tables))
 
 
+@pytest.mark.parametrize('again', [slice(None), slice(3, 4)])
+@pytest.mark.parametrize(('name', 'more'), [('id', np.uint32(2)), ('x', 50.0)])
+def test_two_tables_of_one_moment_are_refused(
+    write_bag: WriteBag, again: slice, name: str, more: float
+) -> None:
+    """A bag that looped while it was recorded, or a second tracker on the topic."""
+    other = [(time, {**table, name: table[name] + more}) for time, table in tracked()[again]]
+    tracks = write_bag('tracks', RADAR, [*tracked(), *other])
+    truth = write_bag('truth', '/truth', [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)])
+    words = f'{RADAR} has {SCANS + len(other)} different tables, but of {SCANS} moments: were the'
+    with pytest.raises(BadBag, match=words):
+        evaluate(tracks, truth)
+
+
 def test_truth_without_a_single_place_is_refused(write_bag: WriteBag) -> None:
     """Says which columns a row must have."""
     tables = [(0.0, {**state(0.0), 'x': np.full(2, np.nan)})]
@@ -208,15 +222,17 @@ def test_tables_that_were_recorded_twice_count_once(write_bag: WriteBag) -> None
     assert found.per_track[0].rows == SCANS
 
 
-def test_two_trackers_or_two_rounds_in_one_bag_are_told(write_bag: WriteBag) -> None:
-    """One id in two places is refused; of a recording that was played twice the head says so."""
+def test_two_tracks_on_each_contact_are_told(write_bag: WriteBag) -> None:
+    """As of contacts of several plots; figures of the nearer one tell half of it."""
     truth = write_bag('truth', '/truth', [(PERIOD * k, state(PERIOD * k)) for k in range(SCANS)])
-    again = [(time, {**table, 'id': table['id'] + np.uint32(2)}) for time, table in tracked()]
-    found = evaluate(write_bag('twice', RADAR, tracked() + again), truth)
-    assert 'contacts have 2.0 tracks at a time' in to_text(found)
-    other = [(time, {**table, 'x': table['x'] + 50.0}) for time, table in tracked()]
-    with pytest.raises(BadBag, match=r'track 1 of .* in two places at 1000.000 s: are two'):
-        evaluate(write_bag('both', RADAR, tracked() + other), truth)
+    both = [
+        (time, {name: np.concatenate([part, part + np.uint32(2) if name == 'id' else part])
+                for name, part in table.items()})
+        for time, table in tracked()
+    ]  # fmt: skip
+    assert 'contacts have 2.0 tracks at a time' in to_text(
+        evaluate(write_bag('both', RADAR, both), truth)
+    )
 
 
 def test_covariance_of_another_size_is_refused(write_bag: WriteBag) -> None:

@@ -160,8 +160,18 @@ def test_report_command_on_tracks_alone(
     assert content_of(html)['plots'] == content_of(html)['truth'] == {}
 
 
-def test_gather_finds_the_step_times_of_a_live_node(replayed: Path, tmp_path: Path) -> None:
-    """What the node told in its diagnostics is there, whoever recorded them."""
+@pytest.mark.parametrize(
+    ('names', 'found'),
+    [
+        (('somebody',), [0.004]),  # whoever recorded them
+        (('radar_tracker', 'ship/radar_tracker', 'sonar_tracker'), [0.004]),
+        (('bow', 'stern'), []),  # nobody knows whose tracks these are
+    ],
+)
+def test_gather_finds_the_step_times_of_the_node_whose_tracks_it_shows(
+    names: tuple[str, ...], found: list[float], replayed: Path, tmp_path: Path
+) -> None:
+    """What a live node told in its diagnostics is there, that of others in its graph is not."""
     types = get_typestore(Stores.ROS2_JAZZY).types
     status = types['diagnostic_msgs/msg/DiagnosticStatus']
     value = types['diagnostic_msgs/msg/KeyValue']
@@ -170,12 +180,13 @@ def test_gather_finds_the_step_times_of_a_live_node(replayed: Path, tmp_path: Pa
     with BagWriter(tmp_path / 'tracks') as out, open_bag(replayed / 'tracks') as bag:
         for connection, time, raw in bag.messages():
             out.write_raw(connection.topic, connection.msgtype, raw, time)
-        for taken in ('0.004', '0.006'):
+        for name, taken in zip(names, ('0.004', '0.006', '0.008'), strict=False):
             values = [value('tracks', '7'), value('step time [s]', taken)]
-            told = [status(level=0, name='', message='', hardware_id='', values=values)]
+            who = f'{name}: tracking'
+            told = [status(level=0, name=who, message='', hardware_id='', values=values)]
             out.write('diagnostics', array(header=header, status=told), time)
-    found = gather(Sources('radar', Topics(), tmp_path / 'tracks'))
-    assert found.step_times.tolist() == [0.004, 0.006]
+    material = gather(Sources('radar', Topics(), tmp_path / 'tracks'))
+    assert material.step_times.tolist() == found
 
 
 @pytest.mark.parametrize(

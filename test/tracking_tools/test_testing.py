@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 import pytest
 from std_srvs.srv import Trigger
 
@@ -55,6 +55,26 @@ def test_waiting_says_for_what(ros_domain_id):
         pytest.raises(TimeoutError, match='3 track tables'),
     ):
         probe.collect(3, deadline=0.1)
+
+
+def test_waiting_in_vain_says_which_nodes_are_there(ros_domain_id):
+    """A tracker in another namespace than was thought is seen at once."""
+    with Peer(ros_domain_id) as peer, Peer(ros_domain_id, 'radar_tracker', 'ship') as other:
+        peer.wait_for_node(other.node.get_fully_qualified_name())
+        nodes = r"service radar_tracker/get_state; nodes: \['/ship/radar_tracker'\]"
+        with pytest.raises(TimeoutError, match=nodes):
+            peer.state('radar_tracker', deadline=0.1)
+
+
+def test_diagnosed_finds_the_tracker_among_others(ros_domain_id):
+    """On /diagnostics any node may speak, of several things or of none."""
+    ours = DiagnosticStatus(name='radar_tracker: tracking', values=[KeyValue(key='a', value='1')])
+    other = DiagnosticStatus(name='bow/radar_tracker: tracking')
+    with TrackerProbe(ros_domain_id) as probe:
+        for status in ([other, ours], [other], []):
+            probe.diagnostics.append(DiagnosticArray(status=status))
+        assert probe.diagnosed('a') == '1'
+        assert probe.diagnosed('b') is None
 
 
 def test_call_asks_again_when_the_answer_does_not_come(ros_domain_id):

@@ -4,9 +4,9 @@
 Which tracks a node takes up again after it has been started anew, and how they are kept.
 
 All that a session remembers goes into a file from time to time; a node that starts with the same
-sensor and parameters soon enough goes on from there. Whatever is not fit is refused in words, and
-tracking starts without it. Ids are reserved ahead of their use, so that none comes twice even if a
-node is killed right after it has given one away.
+name, sensor and parameters soon enough goes on from there. Whatever is not fit is refused in
+words, and tracking starts without it. Ids are reserved ahead of their use, so that none comes
+twice even if a node is killed right after it has given one away.
 """
 
 from __future__ import annotations
@@ -45,15 +45,21 @@ class Keeper:
         Just begun.
     configs : tuple
         Of the tracker and of the node.
+    node : str
+        Its full name: the tracks of others are not for it.
     clock : callable
         Returns the time of day [s]: the one that goes on while no node runs.
 
     """
 
     def __init__(
-        self, session: Session, configs: Configs, clock: Callable[[], float] = time.time
+        self,
+        session: Session,
+        configs: Configs,
+        node: str = '',
+        clock: Callable[[], float] = time.time,
     ) -> None:
-        self._session, self._clock = session, clock
+        self._session, self._node, self._clock = session, node, clock
         self._config = configs[1].snapshot
         self._path = Path(self._config.file).expanduser() if self._config.file else None
         fixed = [p for p in parameters(configs[0]) if not p.live]
@@ -62,6 +68,7 @@ class Keeper:
             p.name: list(p.value) if isinstance(p.value, tuple) else p.value for p in fixed
         }
         self._bound = 0  # ids below are reserved in the file
+        self._mark: tuple[int, int] | None = None  # of the file that was written last
         self._written = session.instrument.tracker.state  # what the file has
 
     def open(self, every: Callable[[float, Callable[[], None]], None], received: float) -> None:
@@ -107,6 +114,7 @@ class Keeper:
         session, tracker = self._session, self._session.instrument.tracker
         bound = tracker.state.next_id + RESERVED
         memory = {
+            'node': self._node,
             'sensor': session.instrument.topic,
             'parameters': self._parameters,
             'saved': self._clock(),
@@ -114,7 +122,11 @@ class Keeper:
             'tracker': session.instrument.remember(),
         }
         try:
+            if self._mark is not None and _mark(self._path) not in (self._mark, None):
+                what = 'snapshot is written by another node, too'
+                session.ledger.fail(what, f'{self._path}; give each its own snapshot.file')
             write_snapshot(self._path, memory, bound)
+            self._mark = _mark(self._path)
             self._bound, self._written = bound, tracker.state
         except OSError as error:
             session.ledger.fail('snapshot cannot be written', f'{self._path}: {error}')
@@ -134,6 +146,8 @@ class Keeper:
         topic, theirs = self._session.instrument.topic, memory.get('sensor')
         if theirs != topic:
             raise BadSnapshot(f'it is of a node that hears {theirs}, this one hears {topic}')
+        if (theirs := memory.get('node')) != self._node:
+            raise BadSnapshot(f'it is of {theirs}, this node is {self._node}')
         theirs = memory.get('parameters')
         for name, value in self._parameters.items():
             told = theirs.get(name) if isinstance(theirs, dict) else None
@@ -158,3 +172,12 @@ class Keeper:
         finally:
             self._take_ids(ids)
         self._written = session.instrument.tracker.state
+
+
+def _mark(path: Path) -> tuple[int, int] | None:
+    """Return what another file in its place would not have, None where there is none."""
+    try:
+        known = path.stat()
+    except FileNotFoundError:
+        return None
+    return known.st_ino, known.st_mtime_ns

@@ -11,8 +11,6 @@ import numpy as np
 from msg_adapters.table import Columns
 from msg_adapters.track_rows import CONFIRMED
 from tracking_core.batches import Bools, Floats
-from tracking_tools.bags import BadBag
-from tracking_tools.scene import choose
 from tracking_tools.scoring import TrackRows
 from tracking_tools.track_table import COVARIANCE, NEEDED
 
@@ -23,29 +21,6 @@ def judged_rows(table: Columns, sensor: str) -> Bools:
     """Return which rows are compared: of confirmed tracks, with numbers where they are."""
     known = [np.isfinite(table[name]) for name in PLACE[sensor]]
     return np.asarray(np.all([table['status'] == CONFIRMED, *known], axis=0))
-
-
-def without_copies(table: Columns, sensor: str, where: str) -> Columns:
-    """
-    Return the rows (N,) without those that were recorded twice, sorted by stamp.
-
-    Raises
-    ------
-    BadBag
-        If a track is in two places in one table.
-
-    """
-    order = np.lexsort((table['id'], table['stamp']))
-    table = choose(table, order)
-    ids, stamps = table['id'], table['stamp']
-    again = np.append(False, (ids[1:] == ids[:-1]) & (stamps[1:] == stamps[:-1]))
-    for row in np.flatnonzero(again).tolist():
-        if any(table[name][row] != table[name][row - 1] for name in PLACE[sensor]):
-            raise BadBag(
-                f'track {ids[row]} of {where} is in two places at {stamps[row]:.3f} s: are two '
-                'trackers on one topic?'
-            )
-    return choose(table, ~again) if again.any() else table
 
 
 def no_rows(needed: Sequence[str]) -> Columns:

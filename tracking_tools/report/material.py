@@ -75,7 +75,7 @@ def gather(
     configs : tuple, optional
         Parameters that the tracks were made with, if known.
     step_times : sequence of float
-        Of each scan [s]; by default those in the diagnostics of the tracks bag.
+        Of each scan [s]; by default what their node told in the diagnostics of the tracks bag.
     yardstick : Yardstick, optional
         With what measure tracks are judged.
     title : str
@@ -95,7 +95,8 @@ def gather(
     published = scene.published if isinstance(scene, Scene) else scene.tracks
     if not len(published.get('id', ())):
         raise BadBag(f'{sources.tracks}: {topics.tracks} has no confirmed track')
-    taken = np.array(step_times or _recorded_step_times(sources.tracks), np.float64)
+    recorded = step_times or _recorded_step_times(sources.tracks, topics.tracks)
+    taken = np.array(recorded, np.float64)
     named = {'tracks': (sources.tracks, topics.tracks), 'plots': (sources.plots, topics.plots),
              'truth': (sources.truth, topics.truth)}  # fmt: skip
     return Material(
@@ -149,13 +150,16 @@ def _in_words(value: Any) -> str:
     return f'{value:.6g}' if isinstance(value, float) else str(value)
 
 
-def _recorded_step_times(bag: Path) -> list[float]:
-    """Return what the live node told of its steps, if that was recorded."""
-    found = []
+def _recorded_step_times(bag: Path, tracks: str) -> list[float]:
+    """Return what the live node of the tracks, or the only one, told of its steps, if recorded."""
+    told: dict[str, list[float]] = {}  # by node
     with open_bag(bag) as reader:
         chosen = [c for c in reader.connections if c.topic == DIAGNOSTICS]
         for connection, _, raw in reader.messages(chosen) if chosen else ():
             msg: Any = reader.deserialize(raw, connection.msgtype)
-            found += [v.value for status in msg.status for v in status.values
-                      if v.key == STEP_TIME]  # fmt: skip
-    return [float(value) for value in found]
+            for status in msg.status:
+                times = [float(v.value) for v in status.values if v.key == STEP_TIME]
+                if times:
+                    told.setdefault(status.name.partition(':')[0], []).extend(times)
+    only = next(iter(told.values())) if len(told) == 1 else []
+    return told.get(tracks.rpartition('/')[0].lstrip('/'), only)

@@ -162,22 +162,19 @@ class TrackerProbe:
     def until_diagnosed_at(self, time: float) -> None:
         """Wait until the node's clock, as its diagnostics show it, is there."""
         self.spin_until(
-            lambda: (said := self._own_diagnostics()) and _is_at(said, time), f'clock at {time}'
+            lambda: (said := self._own_diagnostics()) and _is_at(said[0], time), f'clock at {time}'
         )
 
     def diagnosed(self, key: str) -> str | None:
         """Return a value of the last diagnostics of the node, None before there are any."""
         said = self._own_diagnostics()
-        return (
-            next((v.value for v in said.status[0].values if v.key == key), None) if said else None
-        )
+        return next((v.value for v in said[1].values if v.key == key), None) if said else None
 
-    def _own_diagnostics(self) -> Any:
-        """Return the last message of our tracker: /diagnostics is for all nodes."""
+    def _own_diagnostics(self) -> tuple[Any, Any] | None:
+        """Return the last message with a word of our tracker, and that: any node may speak."""
         name = f'{self.node.get_namespace()}/{self.sensor.node}: '.lstrip('/')
-        return next(
-            (m for m in reversed(self.diagnostics) if m.status[0].name.startswith(name)), None
-        )
+        told = ((msg, status) for msg in reversed(self.diagnostics) for status in msg.status)
+        return next((pair for pair in told if pair[1].name.startswith(name)), None)
 
 
 def _is_at(msg: Any, stamp: float) -> bool:
