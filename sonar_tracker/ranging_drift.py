@@ -10,7 +10,6 @@ say how likely each strength of the drift is, and each strength how far the fit 
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import logsumexp
 
 from sonar_tracker.ranging_fit import Fit
 from sonar_tracker.ranging_model import distances, Legs
@@ -43,34 +42,29 @@ def strayed(bound: Floats, best: Fit, legs: Legs, noise: Floats, usual: float) -
     """
     if usual == 0.0:
         return bound
-    root = 1.0 / np.sqrt(noise)[:, None, None]
-    moved, slope, residual = (x * root for x in (_moved(best, legs), best.slope, _column(best)))
-    common = np.swapaxes(slope, 1, 2) @ moved
-    followed = bound @ common  # (T, 4, C) by the fit
-    left = np.swapaxes(moved, 1, 2) @ moved - np.swapaxes(common, 1, 2) @ followed
-    size, axes = np.linalg.eigh(symmetrise(left))
+    moved = _moved(best, legs)
+    by_mark = np.swapaxes(moved, 1, 2) / noise[:, None, None]
+    common = by_mark @ best.slope
+    followed = bound @ np.swapaxes(common, 1, 2)  # (T, 4, C) by the fit
+    size, axes = np.linalg.eigh(symmetrise(by_mark @ moved - common @ followed))
     size, followed = np.maximum(size, 0.0), followed @ axes
-    seen = (np.swapaxes(moved @ axes, 1, 2) @ residual)[..., 0]  # (T, C)
+    seen = (np.swapaxes(axes, 1, 2) @ (by_mark @ best.residual[..., None]))[..., 0]  # (T, C)
 
     prior = _DRIFTS[:, None, None] ** 2
     variance = prior / (1.0 + prior * size)  # (V, T, C) of the changes, given the residuals
     evidence = 0.5 * (variance * seen**2 - np.log1p(prior * size)).sum(axis=2)
     odds = _log_odds(usual)[:, None] + evidence
-    chance = np.exp(odds - np.logaddexp(0.0, logsumexp(odds, axis=0)))  # (V, T)
-    off = np.einsum('tac,vtc->vta', followed, variance * seen)
-    spread = (chance[..., None] * variance).sum(axis=0)[:, None]
-    wider = (followed * spread) @ np.swapaxes(followed, 1, 2)
-    return np.asarray(bound + wider + np.einsum('vt,vta,vtb->tab', chance, off, off))
+    chance = np.exp(odds - np.logaddexp.reduce(odds, axis=0, initial=0.0))  # (V, T)
+    off = followed @ np.moveaxis(variance * seen, 0, 2)  # (T, 4, V)
+    spread = (chance[..., None] * variance).sum(axis=0)
+    wider = (followed * spread[:, None]) @ np.swapaxes(followed, 1, 2)
+    return np.asarray(bound + wider + (off * chance.T[:, None]) @ np.swapaxes(off, 1, 2))
 
 
 def _log_odds(usual: float) -> Floats:
     """Return those of each drift against none: it is off the usual by so many times."""
     off = np.abs(np.log(np.append(_NONE, _DRIFTS) / usual))
     return np.asarray(off[0] - off[1:])
-
-
-def _column(best: Fit) -> Floats:
-    return best.residual[..., None]
 
 
 def _moved(best: Fit, legs: Legs) -> Floats:

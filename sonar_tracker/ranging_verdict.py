@@ -85,9 +85,11 @@ def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0)
     chance = _chance(best, noise, count)
     straight = chance > alarm
     observable &= best.arrived & straight
-    told = np.flatnonzero(observable)
-    some, marks = take(best, told), take(legs, told)
-    bound[told] = strayed(bound[told], some, marks, raised[told], config.velocity_noise)
+    if observable.any():
+        bound[observable] = strayed(
+            bound[observable], take(best, observable), take(legs, observable),
+            raised[observable], config.velocity_noise,
+        )  # fmt: skip
     state, jacobian = courses(best.state, legs)
     return Verdict(
         state=state,
