@@ -10,9 +10,12 @@ from typing import Any
 import numpy as np
 
 from tracking_core.batches import Bools, Floats, Ints
+from tracking_core.chances import TINY
 from tracking_core.linalg import nearest_turn
 
 _TIME, _BEARING, _WEIGHT = 0, 1, 4  # rows of `points`; 2 and 3 are x and y of own ship
+_STRAIGHT = 0.003  # sds that a mean of two may be off before others are rather averaged
+_NOISE = 4.0  # sds, within which marks that differ need not have turned
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,8 @@ class BearingHistory:
 
     When a track's rows are full, marks before the window are forgotten, and then the nearest
     neighbours in time become one: weighted means of time, bearing and sensor position, which is
-    exact as far as the bearing goes straight from one to the other.
+    exact as far as the bearing goes straight from one to the other. So neighbours between which
+    it turns far, as of a contact that passes near, count as farther apart.
     """
 
     def __init__(self, points: int, window: float) -> None:
@@ -122,13 +126,13 @@ class BearingHistory:
         points = self._points[:, rows]
         K = points.shape[2]
         first, second = points[:, :, 0 : K - 1 : 2], points[:, :, 1::2].copy()
+        second[_BEARING] = nearest_turn(second[_BEARING], first[_BEARING])
         gap = np.where(second[_WEIGHT] > 0.0, second[_TIME] - first[_TIME], np.inf)
-        chosen = np.argsort(gap, axis=1, kind='stable')[:, : K // 4]
+        chosen = np.argsort(gap * (1.0 + _bend(first, second) / _STRAIGHT), axis=1, kind='stable')
         merged = np.zeros(gap.shape, bool)
-        np.put_along_axis(merged, chosen, True, axis=1)
+        np.put_along_axis(merged, chosen[:, : K // 4], True, axis=1)
         merged &= np.isfinite(gap)
 
-        second[_BEARING] = nearest_turn(second[_BEARING], first[_BEARING])
         total = first[_WEIGHT] + second[_WEIGHT]
         share = second[_WEIGHT] / np.where(total > 0.0, total, 1.0)
         mean = first + share * (second - first)
@@ -138,3 +142,17 @@ class BearingHistory:
         kept = np.arange(K) < self._count[rows, None]
         kept[:, 1::2] &= ~merged
         self._keep(rows, kept)
+
+
+def _bend(first: Floats, second: Floats) -> Floats:
+    """
+    Return how far the means of marks (5, N, P) may be off the bearing then (N, P), in their sds.
+
+    On a straight pass b'' is at most 0.65 of the square of the greatest bearing rate, and a mean
+    of two that are as sure is off by an eighth of it times the square of the time between them.
+    """
+    apart = np.abs(second[_BEARING] - first[_BEARING])
+    sum_of_weights = first[_WEIGHT] + second[_WEIGHT]
+    product = np.maximum(first[_WEIGHT] * second[_WEIGHT], TINY)
+    turned = apart > _NOISE * np.sqrt(sum_of_weights / product)
+    return np.asarray(turned * 0.08 * apart**2 * np.sqrt(sum_of_weights))

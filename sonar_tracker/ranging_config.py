@@ -24,7 +24,8 @@ class RangingConfig:
     )  # fmt: skip
     velocity_noise: float = parameter(
         0.003, unit='m/s/sqrt(s)', low=0.0, high=10.0,
-        doc='drift of the velocity of contacts that a range must stand to be observable',
+        doc='drift of the velocity of contacts that a range must stand to be observable; its sd '
+        'is that of this and of larger and smaller drifts, as far as the marks allow them',
     )  # fmt: skip
     heading_noise: float = parameter(
         0.0035, unit='rad', low=0.0, high=0.5,

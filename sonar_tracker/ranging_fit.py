@@ -29,6 +29,7 @@ class Fit:
 
     state: Floats  # (T, 4)
     slope: Floats  # (T, K, 4) of the bearings by the state, in sd of the marks, whitened
+    residual: Floats  # (T, K) bearings less those of the course, in sd of the marks, whitened
     information: Floats  # (T, 4, 4) of the state, Fisher
     chi_square: Floats  # (T,)
     serial: Floats  # (T,) sum of products of neighbouring residuals over its sd
@@ -61,7 +62,8 @@ def fit(legs: Legs, range_min: float, range_max: float) -> Fit:
     count = (legs.weight > 0.0).sum(axis=1)
     serial = (residual[:, 1:] * residual[:, :-1]).sum(axis=1) / np.sqrt(count)
     information = symmetrise(np.swapaxes(slope, 1, 2) @ slope)
-    return Fit(state, slope, information, (residual**2).sum(axis=1), serial, ~going)
+    chi_square = (residual**2).sum(axis=1)
+    return Fit(state, slope, residual, information, chi_square, serial, ~going)
 
 
 def _descend(

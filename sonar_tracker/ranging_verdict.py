@@ -10,12 +10,14 @@ import numpy as np
 from scipy.special import chdtrc, ndtr
 
 from sonar_tracker.ranging_config import RangingConfig
+from sonar_tracker.ranging_drift import strayed
 from sonar_tracker.ranging_fit import Fit
 from sonar_tracker.ranging_heading import misheaded
 from sonar_tracker.ranging_model import courses, distances, Legs
 from tracking_core.batches import Bools, Floats, Ints
 from tracking_core.chances import TINY
 from tracking_core.linalg import inverse, symmetrise
+from tracking_core.rows import take
 
 _UNKNOWNS = 4
 _WORST_CONDITION = 1e10  # of the information; beyond it the inverse is rounding
@@ -29,7 +31,7 @@ class Verdict:
     """What the fits of T tracks are worth."""
 
     state: Floats  # (T, 4) x, y, vx, vy at the time of the newest mark [m, m/s]
-    covariance: Floats  # (T, 4, 4) of a contact on a straight course, inverse of the information
+    covariance: Floats  # (T, 4, 4) of a contact that strays as far as its marks allow
     observable: Bools  # (T,)
     straight: Bools  # (T,) the residuals are those of a straight course
     bent: Bools  # (T,) surely no straight course
@@ -72,7 +74,8 @@ def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0)
         astray += config.heading_error(heading_sd) ** 2 * misheaded(legs, gain)
     else:
         noise, alarm = np.minimum(noise, 1.0), np.sqrt(alarm)
-    bound *= np.maximum(noise, 1.0)[:, None, None]
+    raised = np.maximum(noise, 1.0)
+    bound *= raised[:, None, None]
     range_variance = bound[:, 3, 3] + astray
     observable = sound & (range_variance < (config.relative_sd * best.state[:, 3]) ** 2)
 
@@ -81,11 +84,17 @@ def judge(best: Fit, legs: Legs, config: RangingConfig, heading_sd: float = 0.0)
     observable &= distance < (1.0 - _EDGE) * config.range_max
     chance = _chance(best, noise, count)
     straight = chance > alarm
+    observable &= best.arrived & straight
+    if observable.any():
+        bound[observable] = strayed(
+            bound[observable], take(best, observable), take(legs, observable),
+            raised[observable], config.velocity_noise,
+        )  # fmt: skip
     state, jacobian = courses(best.state, legs)
     return Verdict(
         state=state,
         covariance=symmetrise(jacobian @ bound @ np.swapaxes(jacobian, 1, 2)),
-        observable=observable & best.arrived & straight,
+        observable=observable,
         straight=straight,
         # A false alarm would cost the leg before the manoeuvre: be twice as sure.
         bent=best.arrived & (chance < config.false_alarm**2),

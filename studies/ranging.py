@@ -59,9 +59,10 @@ and Rao's from all {marks} marks; the fit keeps 128 averages of them.
 - {first:.0f} s after the turn 99 % of the ranges are observable. A straight course would tell
   earlier and after smaller turns; a range must also stand a small drift of the contact's velocity
   (`ranging.velocity_noise`) and a heading that is wrong for a while (`ranging.heading_noise`).
-- **The sd that is told is that of a contact on a straight course.** A contact that turns in the
-  same minutes as the own ship can look like a nearer or farther one on a straight course; no
-  residual shows it. `ranging.velocity_noise` says how much of this a verdict must stand.
+- **The sd that is told is that of a contact that strays as far as its marks allow**: where they
+  are sure of a straight course, as here, it is the bound. A contact that turns in the same minutes
+  as the own ship can look like a nearer or farther one on a straight course; no residual shows it.
+  `ranging.velocity_noise` says how much of this a verdict must stand, and how likely it is.
 - A contact that turns later is noticed, but not at once (last table). There all contacts turn at
   once, which is taken for a wrong heading as long as that explains the marks; one that turns among
   others is noticed sooner.

@@ -55,3 +55,16 @@ def test_history_follows_ids() -> None:
     history.forget_older_half(np.array([1]))
     kept = history.read(np.array([1]))
     assert_array_equal(kept.time[kept.weight > 0.0], [2.0, 3.0, 4.0])
+
+
+def test_history_keeps_the_turn_of_a_contact_that_passes_near() -> None:
+    """Nine hundred marks in 128 rows, half a circle in half a minute: all are where it was."""
+    history, sd, own = BearingHistory(128, 1e6), 0.01, np.zeros((1, 2))
+    history.follow(np.array([1]))
+    for time in 2.0 * np.arange(900):
+        bearing = np.arctan2([100.0], [10.0 * (time - 900.0)])
+        history.add(np.array([0]), np.array([time]), bearing, np.array([sd**-2]), own)
+    kept = history.read(np.array([0]))
+    true = np.arctan2(100.0, 10.0 * (kept.time - 900.0))
+    off = wrap_angle(kept.bearing - true) * np.sqrt(kept.weight)
+    assert np.abs(off).max() < 0.5

@@ -78,15 +78,15 @@ def test_verdict_stands_headings_that_wander(factor: float, few: float, most: fl
     assert few <= as_told.observable.mean() <= most
 
 
-def explained_by_heading(legs: Legs) -> Verdict:
+def explained_by_heading(legs: Legs, **values: float) -> Verdict:
     """Return the verdict on fits that know how far the heading wanders."""
     legs = with_wandering(legs, WANDERING)
-    return judge(fit(legs, 50.0, 1e5), legs, RangingConfig(), WANDERING)
+    return judge(fit(legs, 50.0, 1e5), legs, RangingConfig(**values), WANDERING)
 
 
 def test_heading_that_wanders_makes_no_bend() -> None:
     """It is taken for what it is, and the range has its true sd."""
-    found = explained_by_heading(misheard(noise=SD))
+    found = explained_by_heading(misheard(noise=SD), velocity_noise=0.0)
     assert found.observable.mean() > 0.95
     off = found.state - [*PLACE, 0.0, 0.0]
     square = np.einsum('tx,txy,ty->t', off, np.linalg.inv(found.covariance), off)
