@@ -12,6 +12,7 @@ from visualization_msgs.msg import MarkerArray
 
 from msg_adapters.message_types import MessageTypes
 from msg_adapters.shapes import erase_all
+from tracking_node.endpoints import wait_for_readers
 from tracking_node.openings import Openings
 from tracking_session.session import Session
 
@@ -77,3 +78,7 @@ class MarkerTopic:
         """Clear the screens; nothing is due until the next scan."""
         if session.stamp is not None:
             self._topic.publish(self._display.erase(session.header()))
+
+    def take_leave(self) -> None:
+        """Let viewers have what was published last before the topic goes."""
+        wait_for_readers(self._topic)

@@ -7,10 +7,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 DEPTH = 50  # messages of an input that may wait
+FAREWELL = 0.5  # s, within which readers should have the last message
 
 
 def subscribe(node: Any, kind: Any, topic: str, callback: Callable[..., None]) -> Any:
@@ -35,3 +37,8 @@ def _output() -> dict[str, Any]:
         'qos_profile': QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
         'qos_overriding_options': QoSOverridingOptions.with_default_policies(),
     }
+
+
+def wait_for_readers(publisher: Any) -> None:
+    """Wait until reliable readers have what was published last, but not long."""
+    publisher.wait_for_all_acked(Duration(seconds=FAREWELL))

@@ -108,6 +108,11 @@ class LiveTopics:
         self._is_active = False
         self._markers.clear(self._session)
 
+    def take_leave(self) -> None:
+        """Clear the screens for good: who shows tracks has heard of it before the topics go."""
+        self.deactivate()
+        self._markers.take_leave()
+
     def reconfigure(self, configs: Configs) -> None:
         """Go on with other live parameters."""
         config, self._node_config = configs

@@ -109,7 +109,7 @@ class TrackerNode(LifecycleNode):
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Forget everything, for good; the screens are cleared where it was active."""
         if self._live is not None:
-            self._live.deactivate()
+            self._live.take_leave()
         self._close()
         return super().on_shutdown(state)
 
