@@ -1,10 +1,11 @@
 # Copyright 2026 the contact_tracking authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of replay, demo and picture share: a short piece of the demo scene."""
+"""What tests of the tools share: a short piece of the demo scene, a browser."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
+import shutil
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,24 @@ from tracking_tools.bags import BagWriter, open_bag
 from tracking_tools.scoring import TrackRows, Truth
 
 DEMO = Path(__file__).parents[2] / 'demo' / 'terminal_area'
+CHROMIUM = next(filter(None, map(shutil.which, ('chromium', 'chromium-browser', 'google-chrome'))),
+                None)  # fmt: skip
+FLAGS = [
+    '--headless', '--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-sync',
+    '--disable-background-networking', '--disable-component-update',
+]  # fmt: skip
+
+
+@pytest.fixture(scope='module')
+def browser() -> Iterator[Any]:
+    """Yield a browser without a window."""
+    driven = pytest.importorskip('playwright.sync_api', reason='playwright is not installed')
+    if CHROMIUM is None:
+        pytest.skip('no chromium on this machine')
+    with driven.sync_playwright() as driver:
+        running = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield running
+        running.close()
 
 
 @pytest.fixture(scope='session')

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-import shutil
 from typing import Any
 
 import numpy as np
@@ -21,35 +20,14 @@ from tracking_tools.report.material import gather, Sources
 from tracking_tools.sensors import SENSORS
 
 pytest.importorskip('bokeh', reason='bokeh (extra report) is not installed')
-pytest.importorskip('playwright', reason='playwright (extra test) is not installed')
-
-from playwright.sync_api import sync_playwright
 
 from tracking_tools.report.page import write_page
 
-CHROMIUM = next(filter(None, map(shutil.which, ('chromium', 'chromium-browser', 'google-chrome'))),
-                None)  # fmt: skip
-FLAGS = (
-    '--headless', '--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-sync',
-    '--disable-background-networking', '--disable-component-update',
-)  # fmt: skip
 PATIENCE = 60_000  # on a busy machine [ms]
 EVIL = '</script><script>window.hurt = 1</script>'
 OPENS = (
     2.0  # of the browser's main thread [s]; wall time says more of the machine than of the page
 )
-
-if CHROMIUM is None:
-    pytest.skip('no chromium on this machine', allow_module_level=True)
-
-
-@pytest.fixture(scope='module')
-def browser() -> Iterator[Any]:
-    """Yield a browser without a window."""
-    with sync_playwright() as driver:
-        running = driver.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
-        yield running
-        running.close()
 
 
 @pytest.fixture(scope='module')

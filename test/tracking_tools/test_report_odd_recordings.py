@@ -4,9 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-import shutil
 from typing import Any
 
 import numpy as np
@@ -14,9 +13,6 @@ from numpy.testing import assert_allclose
 import pytest
 
 pytest.importorskip('bokeh', reason='bokeh (extra report) is not installed')
-pytest.importorskip('playwright', reason='playwright (extra test) is not installed')
-
-from playwright.sync_api import sync_playwright
 
 from msg_adapters.message_types import rosbags_types
 from msg_adapters.table import from_columns
@@ -25,25 +21,10 @@ from tracking_tools.replay_topics import Topics
 from tracking_tools.report.material import gather, Sources
 from tracking_tools.report.page import write_page
 
-CHROMIUM = next(filter(None, map(shutil.which, ('chromium', 'chromium-browser', 'google-chrome'))),
-                None)  # fmt: skip
-FLAGS = ('--headless', '--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-sync')
 PATIENCE = 60_000  # on a busy machine [ms]
 EPOCH, LIFE = 1000.0, 1800.0
 PIECES = """() => ['paths', 'truth_paths'].map((name) => contactTracks.models[name].data.xs.map(
     (xs) => xs.length))"""
-
-if CHROMIUM is None:
-    pytest.skip('no chromium on this machine', allow_module_level=True)
-
-
-@pytest.fixture(scope='module')
-def browser() -> Iterator[Any]:
-    """Yield a browser without a window."""
-    with sync_playwright() as driver:
-        running = driver.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
-        yield running
-        running.close()
 
 
 def open_page(
