@@ -56,7 +56,8 @@ class BearingInitiationConfig:
         0.01, unit='rad/s', doc='fastest bearing to start on', low=1e-6, live=True
     )
     rate_sd: float = parameter(
-        1e-3, unit='rad/s', doc='usual bearing rate of new contacts; 0: no prior', low=0.0,
+        1e-3, unit='rad/s', doc='usual bearing rate of new contacts; 0: any up to the limit',
+        low=0.0,
         live=True,
     )  # fmt: skip
     memory: float = parameter(

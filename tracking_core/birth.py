@@ -15,7 +15,9 @@ from tracking_core.composition import Setup
 from tracking_core.density import Density
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
 from tracking_core.interval import interval_of_looks, time_of_looks
+from tracking_core.lifecycle_config import InitiationConfig
 from tracking_core.linalg import inverse, sum_by_track, symmetrise
+from tracking_core.new_contacts import velocity_covariance
 from tracking_core.rows import change, concatenate, take
 from tracking_core.state import State
 from tracking_core.unresolved.resolution import Resolution, within_limit
@@ -72,7 +74,7 @@ def start_tracks(
             setup.sensor.detection_probability, setup.least_existence, setup.initiation,
             setup.sensor.space,
         )  # fmt: skip
-        starts = with_speed_prior(starts, setup.initiation.speed_sd)
+        starts = with_velocity_prior(starts, setup.initiation)
         starts = one_a_plot(starts, len(fresh))
     used = np.zeros(len(scan))
     used[free] = np.bincount(starts.plot, starts.existence_probability, len(fresh)).clip(max=1.0)
@@ -96,14 +98,14 @@ def _hidden(scan: Scan, seen: Look, setup: Setup, resolution: Resolution) -> Boo
     return within_limit(places.mean, scan.position, scan.coverage, resolution)
 
 
-def with_speed_prior(starts: Starts, sd: float) -> Starts:
-    """Return the starts, given that contacts have speeds of this sd on each axis; 0: no prior."""
-    if sd == 0.0 or len(starts.plot) == 0:
+def with_velocity_prior(starts: Starts, config: InitiationConfig) -> Starts:
+    """Return the starts, given how fast contacts are: two noisy plots alone may say anything."""
+    if len(starts.plot) == 0:
         return starts
     K, d, _ = starts.mean.shape
     P = starts.covariance.reshape(K, 2 * d, 2 * d)
     cross = P[:, :, 1::2]
-    gain = cross @ inverse(P[:, 1::2, 1::2] + sd**2 * np.eye(d))[0]
+    gain = cross @ inverse(P[:, 1::2, 1::2] + velocity_covariance(d, config))[0]
     mean = starts.mean - (gain @ starts.mean[:, :, 1:]).reshape(K, d, 2)
     covariance = symmetrise(P - gain @ np.swapaxes(cross, 1, 2))
     return change(starts, mean=mean, covariance=covariance.reshape(K, d, 2, d, 2))

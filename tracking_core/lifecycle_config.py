@@ -82,7 +82,8 @@ class InitiationConfig:
     )
     speed_sd: float = parameter(
         0.0, unit='m/s', low=0.0, live=True,
-        doc='usual speed of new contacts on each axis, which tames two noisy plots; 0: no prior',
+        doc='usual speed of new contacts on each axis, which tames two noisy plots; 0: any up to '
+        'the limit is as usual',
     )  # fmt: skip
     climb_max: float = parameter(
         100.0, unit='m/s', doc='steepest climb or descent to start on (3-D)', low=0.1, live=True

@@ -50,6 +50,22 @@ def test_one_a_plot_takes_starts_that_are_sure() -> None:
     assert 1.0 - 1e-9 <= made.existence_probability[0] <= 1.0
 
 
+def test_two_noisy_heights_climb_no_faster_than_contacts() -> None:
+    """1500 m apart in 4 s by noise alone: the climb limit of 100 m/s says that it is noise."""
+    values = {
+        'scan.assembly': 'snapshot', 'sensor.dimensions': 3, 'sensor.position_sd': 500.0,
+        'clutter_density': 1e-14, 'initiation.climb_max': 100.0,
+    }  # fmt: skip
+    tracker = RadarTracker(with_values(RadarTrackerConfig(), values))
+    for time, x, height in ((0.0, 20_000.0, 5_000.0), (4.0, 20_800.0, 6_500.0)):
+        message = Plots.cartesian(np.array([time]), np.array([[x, 0.0, height]]))
+        tracks = tracker.track(replace(message, stamp=time))
+    mean, P = tracks.planes[1].moments()
+    assert len(tracks) == 1
+    assert mean[0, 1] < 50.0
+    assert np.sqrt(P[0, 1, 1]) < 100.0 / np.sqrt(3.0)
+
+
 def test_contacts_side_by_side_are_confirmed_as_soon_as_one_alone() -> None:
     """Each of their plots may follow four others: that makes no sixteen doubtful tracks."""
     rng = np.random.default_rng(2)

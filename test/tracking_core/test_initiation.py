@@ -12,7 +12,7 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from tracking_core.batches import Coverage, Seeds
-from tracking_core.birth import with_speed_prior
+from tracking_core.birth import with_velocity_prior
 from tracking_core.density import Density
 from tracking_core.faint_starts import share_of_faint
 from tracking_core.initiation import one_point, plane_start, Starts, two_point
@@ -228,17 +228,16 @@ def test_one_point_starts_at_rest_with_a_velocity_prior() -> None:
     assert starts.hits == 1
 
 
-def test_with_speed_prior_equals_a_measurement_of_no_speed() -> None:
-    """Means and covariances as of a Kalman update with v = 0, sd as said; 0 changes nothing."""
+def test_with_velocity_prior_equals_a_measurement_of_no_velocity() -> None:
+    """Means and covariances as of a Kalman update with v = 0, as unsure as velocities are."""
     old, new = plots(0.0, [[0.0, 0.0]]), plots(4.0, [[100.0, 300.0]])
     starts = start(old, new, Density(1e-12, 1e-12))
     P, x = starts.covariance[0].reshape(4, 4), starts.mean[0].reshape(4)
     H = np.eye(4)[[1, 3]]
-    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + 25.0 * np.eye(2))
-    tamed = with_speed_prior(starts, 5.0)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + 22_500.0 * np.eye(2))
+    tamed = with_velocity_prior(starts, LIMITS)
     assert_allclose(tamed.mean[0].reshape(4), x - K @ H @ x, rtol=1e-9)
     assert_allclose(tamed.covariance[0].reshape(4, 4), P - K @ H @ P, rtol=1e-9, atol=1e-9)
-    assert with_speed_prior(starts, 0.0) is starts
 
 
 @pytest.mark.parametrize(('d', 'speed_sd'), [(1, 0.0), (2, 0.0), (3, 0.0), (2, 50.0), (3, 500.0)])
