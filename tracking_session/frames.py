@@ -21,7 +21,7 @@ WAYS_OUT = (
     'sensor stands in the tracking frame, or set tracking_frame to the frame of the data, or set '
     'use_tf'
 )
-
+ONE_SENSOR = 'one node tracks with one sensor; if it is the same under another name, call ~/reset'
 
 _REMEMBERED = ('name', 'sensor', 'has_ship', 'polar', 'learnt')
 
@@ -51,6 +51,11 @@ class TrackingFrame:
     polar: bool = False  # plots are directions from the sensor, not places
     learnt: bool = False  # the name came from a message
     newcomer: Newcomer = field(default_factory=Newcomer)
+
+    @property
+    def is_known(self) -> bool:
+        """Whether there is a tracking frame, which a driver may have left without a name."""
+        return bool(self.name) or self.learnt
 
     def copy(self) -> TrackingFrame:
         """Return another one that knows the same."""
@@ -105,18 +110,18 @@ class TrackingFrame:
         With no tracking frame set and no own ship the sensor is stationary, and its own frame
         becomes the tracking frame.
         """
-        if not self.name and not self.moving:
+        if not self.is_known and not self.moving:
             if self.mounted:
                 raise BadMessage(
                     'wrong frame',
                     f"header.frame_id is '{frame}' and sensor.mount is set: set tracking_frame to "
                     'the frame in which the mount is given, or give own ship',
                 )
-            self._learn(frame, 'that of the plots: no own ship, so the sensor stands still')
+            self._learn(frame, 'that of the sensor: no own ship, so it stands still')
         if self.sensor is None and (frame == self.name or self.moving or self.mounted):
             self.sensor = frame
         if frame != self.sensor:
-            ways = WAYS_OUT if self.sensor is None else 'one node tracks with one sensor'
+            ways = WAYS_OUT if self.sensor is None else ONE_SENSOR
             raise BadMessage(
                 'wrong frame',
                 f"header.frame_id is '{frame}', expected '{self.sensor or self.name}': {ways}",
@@ -143,7 +148,7 @@ class TrackingFrame:
                 f"own ship in frame '{frame}' is new: believed from message {AGREEING} on, "
                 'nothing is wrong if it goes on',
             )
-        if not self.name or (self.learnt and not self.moving and frame != self.name):
+        if not self.is_known or (self.learnt and not self.moving and frame != self.name):
             self.sensor = None
             self._learn(frame, "that of own ship's odometry")
         if frame != self.name:
@@ -157,7 +162,10 @@ class TrackingFrame:
 
     def _learn(self, frame: str, why: str) -> None:
         self.name, self.learnt = frame, True
-        self.announce(f"the tracking frame is '{shown(frame)}', {why} (tracking_frame is empty)")
+        hint = '' if frame else '. So is header.frame_id: viewers show nothing that has no frame'
+        self.announce(
+            f"the tracking frame is '{shown(frame)}', {why} (tracking_frame is empty){hint}"
+        )
 
     def check_point(self, frame: str) -> None:
         """Accept a position that a user points at, or raise BadMessage."""

@@ -27,6 +27,21 @@ def test_stationary_sensor_gives_its_frame_and_says_so_once(said):
     assert len(said) == 1
 
 
+@pytest.mark.parametrize('has_ship', [False, True])
+def test_frame_without_a_name_is_learnt_once_too(said, has_ship):
+    """As of drivers that leave frame_id empty: plots of another sensor are refused there, too."""
+    frame = TrackingFrame('', False, said.append)
+    for time in range(3):
+        frame.check_plots('')
+        if has_ship:
+            frame.has_ship = True  # it has been believed
+            frame.check_ownship('', float(time))
+    with pytest.raises(BadMessage, match="'other', expected ''"):
+        frame.check_plots('other')
+    assert len(said) == 1
+    assert 'viewers show nothing' in said[0]
+
+
 def test_places_in_the_tracking_frame_are_used_as_they_are(said):
     """Also when own ship is known."""
     frame = TrackingFrame('map', False, said.append)
