@@ -62,8 +62,9 @@ class RadarTracker:
 
     @property
     def turn_time(self) -> float:
-        """Time of one turn of the antenna [s], 0 if it is not known to turn."""
-        return self.antenna.turn_time
+        """Time of one turn of the antenna [s], 0 if it is not known to turn, inf: but will be."""
+        cuts_turns = self.config.scan.assembly in ('sector', 'rotation')
+        return self.antenna.turn_time or (np.inf if cuts_turns else 0.0)
 
     def save(self) -> dict[str, Any]:
         """Return what `restore` takes to go back to this moment: references, no copies of data."""

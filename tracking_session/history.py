@@ -52,7 +52,8 @@ class History:
     scans : int
         How many scans are kept; 0: none.
     margin : float
-        A message may be so much older than the very first one [s].
+        A message may be so much older than the very first one [s], or than the newest one of
+        sectors whose turn is not known yet.
 
     """
 
@@ -142,11 +143,12 @@ class History:
             raise
 
     def _add(self, step: Step, turn_time: float) -> None:
-        """Keep one more message; `turn_time` is the antenna's [s], 0 if messages are scans."""
+        """Keep one more message; `turn_time` is that of the tracker [s]."""
         if self._floor == -np.inf:
             self._floor = step.stamp - self._margin
         self._steps += (step,)
-        self._oldest = step.stamp - self._scans * turn_time
+        is_known = turn_time < np.inf
+        self._oldest = step.stamp - (self._scans * turn_time if is_known else self._margin)
         tracks = len(step.known.tracks) + len(step.plots) // PLOTS
         most = max(FEWEST, min(MOST, TRACKS // (1 + tracks)))
         while len(self._steps) > self._scans:

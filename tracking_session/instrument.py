@@ -39,7 +39,11 @@ class SensorTracker(Protocol):
 
     @property
     def turn_time(self) -> float:
-        """Return the time of one turn of the antenna [s], 0 if it is not known to turn."""
+        """
+        Return the time of one turn of the antenna [s].
+
+        0: it is not known to turn; inf: messages are parts of turns that nobody knows yet.
+        """
 
     @property
     def space(self) -> Space:

@@ -79,6 +79,13 @@ def test_sectors_are_kept_for_three_turns():
     assert not history.takes(49.5 - 12.0 - 0.6)
 
 
+def test_sectors_of_turns_that_nobody_knows_yet_are_kept_for_the_margin():
+    """It may be the late ones that tell how the antenna turns."""
+    for scans in (3, 0):
+        history = filled([0.5 * k for k in range(100)], scans, turn=np.inf)
+        assert [history.takes(49.5 - late) for late in (9.8, 10.6)] == [scans > 0, False]
+
+
 @pytest.mark.parametrize('turn', [4.0 - 1e-6, 4.0, 4.0 + 1e-6])
 def test_turns_are_late_by_whole_ones(turn):
     """Three may be, four not, whatever the time of a turn is rounded to."""

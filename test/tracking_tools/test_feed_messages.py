@@ -38,13 +38,31 @@ def told(datagrams):
     return [msg for _, msg in filter(None, map(feed.take, datagrams))], feed
 
 
-def test_plots_that_come_one_by_one_are_all_used():
-    """A plot alone, at the time of a mark or of another plot: it is not refused, nor a sector."""
-    messages, _ = told(antenna(10))
+def tracked(messages):
+    """Return the session of a radar that has used these."""
     config = RadarTrackerConfig(scan=ScanConfig(assembly='sector'))
     radar = radar_session(config, radar_node_config(), TYPES, getLogger('feed'))
     for msg in messages:
         radar.plots(msg, 0.0)
+    return radar
+
+
+def test_plots_that_come_one_by_one_are_all_used():
+    """A plot alone, at the time of a mark or of another plot: it is not refused, nor a sector."""
+    messages, _ = told(antenna(10))
+    radar = tracked(messages)
+    assert radar.counts['plots'].refused == Counter()
+    assert radar.tracks.confirmed.sum() == len(CONTACTS)
+
+
+def test_plots_may_come_long_after_the_marks_of_their_time():
+    """A radar sends marks at once, plots when they are made; seven marks later from the first."""
+
+    def sent(datagram):
+        return datagram[0].time_of_day + (0.9 if np.isfinite(datagram[0].range) else 0.0)
+
+    messages, _ = told(sorted(antenna(10), key=sent))
+    radar = tracked(messages)
     assert radar.counts['plots'].refused == Counter()
     assert radar.tracks.confirmed.sum() == len(CONTACTS)
 
