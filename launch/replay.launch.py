@@ -107,6 +107,8 @@ def _player():
         cmd=[
             'ros2', 'bag', 'play', LaunchConfiguration('bag'), '--clock', '100',
             '--rate', LaunchConfiguration('rate'), '--delay', LaunchConfiguration('delay'),
+            # What a tracker of this name said then; now it says so itself.
+            '-x', ['.*/', *TRACKER, '/.*|/diagnostics'],
         ],
         output='screen',
         on_exit=Shutdown(reason='the bag is over'),

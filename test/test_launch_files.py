@@ -261,19 +261,19 @@ def test_switches_arrive_as_booleans(entities: list[Any]) -> None:
 
 
 def test_replay_plays_and_records_until_the_bag_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The player has the clock, ends everything, and the recorder has the tracks of the node."""
+    """The player has the clock and ends everything; all tracks are the node's, none the bag's."""
     entities = _load(ROOT / 'launch' / 'replay.launch.py', monkeypatch)
     given = _values(entities, sensor='sonar', bag='/data/patrol', output='/tmp/out', rate='4')
     record, play = (
         [_text(word, given) for word in process.cmd] for process in _only(ExecuteProcess, entities)
     )
-    assert play[:4] == ['ros2', 'bag', 'play', '/data/patrol']
-    assert {'--clock', '--delay'} <= set(play)
+    assert play[:5] == ['ros2', 'bag', 'play', '/data/patrol', '--clock']
     assert play[play.index('--rate') + 1] == '4'
     assert record[record.index('--output') + 1] == '/tmp/out'
-    wanted = re.compile(record[record.index('--regex') + 1])
-    assert wanted.fullmatch('/boat/sonar_tracker/tracks')
-    assert not wanted.fullmatch('/radar_tracker/tracks')
+    for words, option in ((record, '--regex'), (play, '-x')):
+        wanted = re.compile(words[words.index(option) + 1])
+        assert wanted.fullmatch('/boat/sonar_tracker/tracks')
+        assert not wanted.fullmatch('/radar_tracker/tracks')
     ends = [process.on_exit for process in _only(ExecuteProcess, entities)]
     assert ends == [None, Shutdown(reason='the bag is over')]
 
