@@ -38,7 +38,8 @@ def sentence(body):
 def ttm(number=5, distance='10.0', bearing='90.0', reference='T', status='T', utc='120000.50'):
     """Return a tracked target."""
     rest = f'12.0,270.0,T,0.5,3.2,N,NAME,{status},,{utc},A'
-    return sentence(f'RATTM,{number:02d},{distance},{bearing},{reference},{rest}')
+    told = '' if number is None else f'{number:02d}'
+    return sentence(f'RATTM,{told},{distance},{bearing},{reference},{rest}')
 
 
 def ais(**changes):
@@ -179,15 +180,19 @@ def test_what_waits_is_told_once_its_interval_is_over():
 
 @pytest.mark.parametrize('turn', [0.5, 1.0, 2.5])
 def test_target_told_twice_within_an_interval_is_one_plot(turn):
-    """Radars tell their targets once or twice a second; each is one contact, where it was last."""
+    """
+    Radars tell their targets once or twice a second; each is one contact, where it was last.
+
+    Their numbers begin at 00.
+    """
     feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
     lines = [
-        ttm(number, f'{number + 0.001 * step:.3f}', utc=f'1200{turn * step:05.2f}')
+        ttm(number, f'{number + 1.0 + 0.001 * step:.3f}', utc=f'1200{turn * step:05.2f}')
         for step in range(int(20.0 / turn))
-        for number in (1, 2, 3)
+        for number in (0, 1, 2)
     ]
     messages = [to_columns(msg, 9) for _, msg in feed.messages(lines)]
-    assert [msg['id'].tolist() for msg in messages] == [[1, 2, 3]] * len(messages)
+    assert [msg['id'].tolist() for msg in messages] == [[0, 1, 2]] * len(messages)
     told_last = int(20.0 / turn) - 1
     assert messages[-1]['range'][0] == pytest.approx(1852.0 * (1.0 + 0.001 * told_last))
     assert len(messages) == pytest.approx(20.0 / max(turn, 2.0), abs=1)
@@ -208,7 +213,7 @@ def test_port_that_another_feed_hears_is_refused():
 def test_targets_without_a_number_are_all_told():
     """Nobody knows which of them are the same."""
     feed = Feed(read_sentences, rosbags_types(), 'radar', 43_200.0, interval=2.0)
-    ((_, msg),) = feed.messages([ttm(0), ttm(0, distance='11.0')])
+    ((_, msg),) = feed.messages([ttm(None), ttm(None, distance='11.0')])
     assert msg.width == 2
 
 

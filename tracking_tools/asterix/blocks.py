@@ -163,7 +163,7 @@ def _to_plot(record: Any, height: float | None) -> tuple[Report | None, str]:
         azimuth=np.pi / 2.0 - np.radians(theta),
         doppler=optional(record, '120', ('CAL', 'CAL'), 'm/s'),
         amplitude=optional(record, '130', ('PAM',), 'dBm'),
-        track=0 if track is None else number(track, 'TRN'),
+        track=None if track is None else number(track, 'TRN'),
         elevation=elevation,
         elevation_sd=elevation_sd,
     )

@@ -175,13 +175,16 @@ class Feed:
             **({'amplitude': amplitude} if np.isfinite(amplitude).any() else {}),
             **({'range_rate': doppler} if self._with_doppler else {}),
             **({name: column(name) for name in HEIGHT} if self._with_height else {}),
-            'id': np.array([report.track for _, report in plots], np.uint32),
+            'id': np.array([report.track or 0 for _, report in plots], np.uint32),
         }
 
 
 def _newest(reports: Sequence[tuple[float, Report]]) -> list[tuple[float, Report]]:
     """Return the last report of each numbered target: twice in a scan it would be two contacts."""
-    last = {report.track or -place: (time, report) for place, (time, report) in enumerate(reports)}
+    last = {
+        -1 - place if report.track is None else report.track: (time, report)
+        for place, (time, report) in enumerate(reports)
+    }
     return list(last.values())
 
 

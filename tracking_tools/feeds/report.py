@@ -23,7 +23,7 @@ class Report(NamedTuple):
     azimuth: float = np.nan  # [rad]
     doppler: float = np.nan  # as sent [m/s]
     amplitude: float = np.nan  # [dBm]
-    track: int = 0  # number that the sender gives, 0: none
+    track: int | None = None  # number that the sender gives
     second: float = np.nan  # of the minute, where that is all that is told of the time [s]
     elevation: float = np.nan  # [rad], NaN: not told, as its sd
     elevation_sd: float = np.nan  # [rad]

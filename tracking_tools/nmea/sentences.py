@@ -100,7 +100,7 @@ def _report(target: Any, number: Any, distance: float, azimuth: float) -> Report
         time_of_day=_seconds(told) if told else np.nan,
         range=distance,
         azimuth=azimuth,
-        track=max(int(number or 0), 0) % 2**32,
+        track=None if number is None else max(int(number), 0) % 2**32,
     )
 
 
