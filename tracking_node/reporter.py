@@ -12,6 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 from msg_adapters.diagnostics import to_diagnostics
 from msg_adapters.message_types import MessageTypes
+from tracking_node.endpoints import wait_for_readers
 from tracking_node.health import Health, QUIET
 from tracking_node.openings import Openings
 from tracking_node.silence import explain_crowd, explain_silence, Lasting, unheard
@@ -48,6 +49,7 @@ class Reporter:
     def begin(self) -> None:
         """Begin anew, as the node does when it becomes active."""
         self.health, self._silence_is_told = Health(time.monotonic()), False
+        self._idleness_is_told = False
         self._unheard, self._crowded = Lasting(), Lasting()
         self._explained, self._named = set[str](), set[str]()  # topics of these two
 
@@ -55,6 +57,24 @@ class Reporter:
         """Take note that plots have just come."""
         self.health.plots_come(time.monotonic())
         self._silence_is_told = True
+
+    def explain_idleness(self) -> None:
+        """Say once that plots come to a node that is not active."""
+        if not self._idleness_is_told:
+            self._idleness_is_told = True
+            name, topic = self._node.get_fully_qualified_name(), self._session.instrument.topic
+            self._node.get_logger().info(
+                f'{topic} come, but the node is not active: ros2 lifecycle set {name} activate'
+            )
+
+    def tell_state(self, is_active: bool) -> None:
+        """Report at once that the node tracks from now on, or no more."""
+        self._level = ''
+        self.report(is_active)
+
+    def take_leave(self) -> None:
+        """Let readers have what was reported last before the topic goes."""
+        wait_for_readers(self._diagnostics)
 
     def tick(self, subscriptions: Mapping[str, Any], tracks: Any, is_active: bool) -> None:
         """

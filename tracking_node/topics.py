@@ -101,17 +101,20 @@ class LiveTopics:
         """Begin to track."""
         self._is_active = True
         self._reporter.begin()
+        self._reporter.tell_state(True)
 
     def deactivate(self) -> None:
         """Stop listening and clear the screens; tracks are kept."""
         self._waiting.release()
         self._is_active = False
         self._markers.clear(self._session)
+        self._reporter.tell_state(False)
 
     def take_leave(self) -> None:
         """Clear the screens for good: who shows tracks has heard of it before the topics go."""
         self.deactivate()
         self._markers.take_leave()
+        self._reporter.take_leave()
 
     def reconfigure(self, configs: Configs) -> None:
         """Go on with other live parameters."""
@@ -121,6 +124,7 @@ class LiveTopics:
     def _on_plots(self, msg: Any, info: Any) -> None:
         if not self._is_active:
             self._inputs.ignore(self._topic, info)
+            self._reporter.explain_idleness()
             return
         msg, info = self._inputs.freshest(self._topic, (msg, info), self._node_config.max_delay)
         for odometry in self._inputs.waiting('ownship'):  # it must be known at the plots' time

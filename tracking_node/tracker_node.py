@@ -55,6 +55,9 @@ class TrackerNode(LifecycleNode):
         _, node_config = self._settings.configs
         if node_config.autostart:
             self._start()
+        else:
+            way = f'ros2 lifecycle set {self.get_fully_qualified_name()} configure'
+            self._settings.logger.info(f'autostart is false: waits for a manager, or {way}')
 
     def _tell(self, name: str, values: list[str]) -> None:
         """Declare a parameter that only says something."""

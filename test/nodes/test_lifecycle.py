@@ -68,6 +68,7 @@ def test_lifecycle_steps_from_autostart_false_to_shutdown(start_node, probe, sen
     """Without autostart a manager leads; every step answers, and opens or closes the topics."""
     node = start_node('autostart:=false')
     assert probe.peer.state(sensor.node) == 'unconfigured'
+    node.wait_for_line('autostart is false')
     assert topics_of(probe) == set()
     for _ in range(2):
         assert probe.peer.change_state(sensor.node, 'configure')
@@ -89,8 +90,8 @@ def erases(msg):
 
 
 def test_tracks_are_kept_while_inactive_and_publishers_silent(start_node, probe, sensor):
-    """What comes meanwhile is ignored, not lost; the same tracks go on afterwards."""
-    start_node('markers.rate:=100.0')
+    """What comes meanwhile is ignored, which is told, not lost; the same tracks go on then."""
+    node = start_node('markers.rate:=100.0')
     others = []
     ends = [
         probe.hear(Odometry, f'{sensor.node}/odometry', others),
@@ -110,6 +111,7 @@ def test_tracks_are_kept_while_inactive_and_publishers_silent(start_node, probe,
         probe.stamp += probe.sensor.period
         probe.send(probe.sensor.contacts(probe.stamp), probe.stamp)
     assert probe.peer.state(sensor.node) == 'inactive'  # answered after the plots
+    node.wait_for_line(f'{sensor.topic} come, but the node is not active')
     assert (len(probe.tables), len(others)) == heard
     assert probe.peer.change_state(sensor.node, 'activate')
     assert confirmed_ids(probe.scan()) >= before
@@ -117,6 +119,18 @@ def test_tracks_are_kept_while_inactive_and_publishers_silent(start_node, probe,
     probe.diagnostics.clear()
     probe.spin_until(lambda: probe.diagnostics, 'diagnostics')
     assert probe.diagnosed(f'{sensor.topic} lost') == '0'
+
+
+@radar_only
+@pytest.mark.parametrize('step', ['deactivate', 'active_shutdown'])
+def test_last_diagnostics_of_a_node_say_that_it_is_not_active(start_node, probe, sensor, step):
+    """Whoever looks later must not read that it tracks; nor must one wait for a second."""
+    start_node()
+    probe.meet()
+    assert probe.peer.change_state(sensor.node, step)
+    probe.spin_until(
+        lambda: probe.diagnostics[-1].status[0].message == 'not active', 'diagnostics', 5.0
+    )
 
 
 @radar_only
