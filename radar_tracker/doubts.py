@@ -11,7 +11,7 @@ import numpy as np
 from radar_tracker.tracker import RadarTracker
 from tracking_session.doubts import Doubt, noise_doubts, Told
 
-_ENOUGH = 200  # plots, of which the farthest tells how far the radar sees
+_ENOUGH = 200  # plots, of which the farthest tells how far the radar sees, and one has a height
 _ADVICE = 'that is used; set it right, unless most contacts turn all the time'
 
 
@@ -52,3 +52,13 @@ def doubts(tracker: RadarTracker, plots: int, is_own: bool) -> Iterator[Doubt]:
                 'short ranges',
             )
     yield from noise_doubts('plots', told, ratio, _ADVICE)
+
+
+def height_doubts(plots: int) -> Iterator[Doubt]:
+    """Yield what is wrong where none of so many plots of a 3-D radar has a height."""
+    if plots >= _ENOUGH:
+        yield Doubt(
+            'no plot has a height',
+            f'sensor.dimensions is 3, but none of {plots} plots has a height, and without one no '
+            'track starts: set it to 2, or name the field with fields.elevation or fields.z',
+        )

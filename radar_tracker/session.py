@@ -19,7 +19,7 @@ from msg_adapters.reading import Reading
 from msg_adapters.tracks import from_tracks, kinematics, to_bodies
 from msg_adapters.trails import Trails
 from radar_tracker.config import RadarTrackerConfig
-from radar_tracker.doubts import doubts
+from radar_tracker.doubts import doubts, height_doubts
 from radar_tracker.memory import recall, remember
 from radar_tracker.mounting import in_sensor_axes
 from radar_tracker.sensor_config import MountConfig
@@ -68,6 +68,7 @@ class RadarInstrument:
         self._overrides, self._types = vars(node_config.fields), types
         self._trails = Trails.empty(node_config.markers.history)
         self._plots, self._tells_noise = 0, False  # how many came; whether they tell their own
+        self._has_height = config.sensor.dimensions < 3  # or needs none
         self._untimed = UntimedPlots(config.sensor.azimuth_sd)
 
     @property
@@ -123,6 +124,9 @@ class RadarInstrument:
         self._plots += len(plots)
         if len(plots):
             self._tells_noise = tell_noise(plots, self.tracker.radar.is_polar)
+        if not self._has_height:
+            told = plots.elevation, plots.position[:, 2]
+            self._has_height = bool(np.isfinite(told).any())
         local, sectors = relative(plots), self.tracker.sectors
         scan = self.tracker.config.scan
         if scan.assembly == 'message' and not scan.period and not is_true:
@@ -135,6 +139,8 @@ class RadarInstrument:
     def doubts(self) -> Iterator[Doubt]:
         """Yield what the plots say against the parameters."""
         yield from doubts(self.tracker, self._plots, self._tells_noise)
+        if not self._has_height:
+            yield from height_doubts(self._plots)
         yield from self._untimed.doubts()
 
     def to_table(self, previous: Tracks, header: Any) -> Any:

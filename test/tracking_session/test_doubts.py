@@ -43,7 +43,8 @@ def heard(sensor, scale=1.0, times=None, own=None, **parameters):
         columns |= {name: np.full(CONTACTS, value, np.float32) for name, value in own or ()}
         stamp = 1e6 + PERIOD * look
         session.plots(from_columns(columns, stamp, sensor, TYPES), stamp)
-    return [line for line in lines if 'scattered' in line or 'sees far' in line], session
+    doubts = 'scattered', 'sees far', 'has a height'
+    return [line for line in lines if any(words in line for words in doubts)], session
 
 
 @pytest.mark.parametrize('sensor', SENSORS)
@@ -87,3 +88,14 @@ def test_a_radar_that_sees_no_farther_than_its_noise_is_doubted():
     assert Health(0.0, plots_at=1.0).level(session, 1.0)[1] == 'sensor.range_sd is too large'
     lines, _ = heard('radar', scale=1e-3, **{'sensor.range_sd': 0.2})
     assert lines == []
+
+
+@pytest.mark.parametrize('tells', [False, True])
+def test_a_3d_radar_without_heights_is_doubted(tells):
+    """A preset of another radar, or a field of another name: else nobody hears why no track is."""
+    heights = [('elevation', 0.1)] if tells else None
+    lines, session = heard('radar', own=heights, **{'sensor.dimensions': 3})
+    assert bool(len(session.tracks)) == tells
+    assert len(lines) == (not tells)
+    level = Health(0.0, plots_at=1.0).level(session, 1.0)
+    assert level == (('OK', 'tracking') if tells else ('WARN', 'no plot has a height'))
