@@ -10,7 +10,6 @@ followed while the node runs.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-import sys
 from typing import Any
 
 from rcl_interfaces.msg import (
@@ -20,14 +19,13 @@ from rcl_interfaces.msg import (
     SetParametersResult,
 )
 
-from tracking_core.config import hint, Parameter, parameters, with_values
+from tracking_core.config import hint, LARGEST, Parameter, parameters, with_values
 from tracking_node.qos_overrides import complaint, is_override
 from tracking_session.node_config import Configs, TELLING
 from tracking_session.other_sensor import other_sensor
 
 # What rclpy declares by itself, and what only says something.
 _OTHERS = ('use_sim_time', 'start_type_description_service', *TELLING)
-_WIDEST_INTEGER = 2**63 - 1
 
 
 class BadParameter(ValueError):  # noqa: N818 (it is the parameter that is bad)
@@ -120,22 +118,17 @@ def describe(entry: Parameter) -> ParameterDescriptor:
         dynamic_typing=True,
     )
     bounded = entry.low is not None or entry.high is not None
+    low = -LARGEST if entry.low is None else entry.low
+    high = LARGEST if entry.high is None else entry.high
     if bounded and isinstance(entry.value, float):
-        low, high = _limits(entry, sys.float_info.max)
         descriptor.floating_point_range = [
             FloatingPointRange(from_value=float(low), to_value=float(high), step=0.0)
         ]
     elif bounded and isinstance(entry.value, int):
-        low, high = _limits(entry, _WIDEST_INTEGER)
         descriptor.integer_range = [IntegerRange(from_value=int(low), to_value=int(high), step=1)]
     elif bounded:  # a list: ROS has no ranges for these
-        descriptor.additional_constraints = f'each in [{entry.low}, {entry.high}]'
+        descriptor.additional_constraints = f'each in [{low:g}, {high:g}]'
     return descriptor
-
-
-def _limits(entry: Parameter, widest: float) -> tuple[float, float]:
-    low = -widest if entry.low is None else entry.low
-    return low, widest if entry.high is None else entry.high
 
 
 def _all_parameters(configs: Configs) -> Iterator[Parameter]:

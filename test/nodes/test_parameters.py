@@ -11,7 +11,8 @@ from rcl_interfaces.srv import GetParameters, ListParameters, SetParametersAtomi
 from rclpy.parameter import parameter_value_to_python
 import yaml
 
-from tracking_core.config import parameters
+from tracking_core.config import parameters, with_values
+from tracking_node.parameters import describe
 from tracking_tools.parameter_file import configure, read_parameter_file
 from tracking_tools.sensors import SENSORS
 from tracking_tools.testing import NodeProcess, Peer, python_node, RADAR
@@ -93,6 +94,11 @@ def test_every_parameter_has_meaning_unit_and_range(kind):
             if isinstance(first, (int, float)) and not isinstance(first, bool):
                 assert entry.unit, entry.name
                 assert entry.low is not None or entry.high is not None, entry.name
+                told = describe(entry)
+                assert 'None' not in told.additional_constraints
+                for each in (*told.floating_point_range, *told.integer_range):
+                    with pytest.raises(ValueError, match=entry.name):
+                        with_values(config, {entry.name: each.to_value * 2 + 1})
 
 
 def test_parameter_files_are_told_apart(start_node, tmp_path):
