@@ -80,13 +80,14 @@ def test_feed_that_publishes_nothing_says_what_comes(feed, probe):
 
 
 def test_damaged_time_does_not_hold_up_a_file(probe, ros_domain_id, tmp_path):
-    """One of the reports seems five hours later: nobody waits so long for it."""
+    """One of the reports seems five hours later: nobody waits so long for it, but for a reader."""
     path, heard = tmp_path / 'night.ast', []
     times = [1000.0 + 0.25 * turn for turn in range(8)]
     times[3] += 5 * 3600.0
     path.write_bytes(b''.join(datagram(time_of_day, 10.0) for time_of_day in times))
-    probe.hear(PointCloud2, 'plots', heard)
     command = [sys.executable, '-m', 'tracking_tools.asterix', str(path)]
     with NodeProcess(command, ros_domain_id, tmp_path / 'feed.log') as process:
+        process.wait_for_line('as soon as somebody listens on /plots')
+        probe.hear(PointCloud2, 'plots', heard)
         probe.spin_until(lambda: len(heard) == 8, 'all plots', 40.0)
         assert process.wait() == 0

@@ -56,6 +56,14 @@ class FeedNode(Node):
         """Return whether somebody hears the plots."""
         return bool(self._plots.get_subscription_count())
 
+    def await_listener(self, stop: Event) -> None:
+        """Wait until somebody hears the plots, which is said, or it is time to stop."""
+        if not self.has_listener():
+            topic = self._plots.topic_name
+            self.get_logger().info(f'begins as soon as somebody listens on {topic}')
+        while not self.has_listener() and not stop.wait(ATTENTION):
+            pass
+
     def tell(self, msg: Any) -> None:
         """Publish plots."""
         self._plots.publish(msg)
@@ -135,8 +143,7 @@ def _hear(node: FeedNode, hearing: socket.socket, is_over: Callable[[], bool]) -
 
 
 def _play(node: FeedNode, chunks: Iterable[bytes], rate: float, stop: Event) -> None:
-    while not node.has_listener() and not stop.wait(ATTENTION):
-        pass
+    node.await_listener(stop)
     begun, first, end = time.monotonic(), None, (math.inf, None)
     for (stamp, msg), (following, _) in pairwise(chain(node.feed.messages(chunks), [end])):
         due = min(stamp, following)  # a damaged time may be hours ahead
