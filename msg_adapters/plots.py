@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from msg_adapters.azimuths import anticlockwise
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.fields import AMBIGUOUS, describe, PLOTS
+from msg_adapters.kinds.menu import is_single
 from msg_adapters.message_types import MessageTypes
 from msg_adapters.position_noise import position_covariance
 from msg_adapters.reading import Fields, read_fields, Reading, refuse_if_useless
@@ -29,6 +30,10 @@ from tracking_core.linalg import wrap_angle
 from tracking_core.rows import take
 
 OPTIONAL = ('range_sd', 'azimuth_sd', 'elevation_sd', 'range_rate_sd', 'range_rate', 'snr')
+_SINGLE = (
+    'each message is one plot, and taken for all that a look saw: if there are several contacts, '
+    'set scan.assembly to snapshot and scan.period to the time in which each of them is told once'
+)
 DISAGREEMENT = 0.01  # of the range, between polar and Cartesian columns of one row
 
 
@@ -109,7 +114,9 @@ def to_plots(
         contradictions = _contradictions(plots)
         doubtful |= {'polar and x, y disagree': contradictions} if contradictions else {}
         plots = replace(plots, position=np.full((len(plots), 3), np.nan))
-    return Reading(plots, dropped, doubtful, message.mapping, _note(message))
+    return Reading(
+        plots, dropped, doubtful, message.mapping, _SINGLE if is_single(msg) else _note(message)
+    )
 
 
 def _assemble(

@@ -6,15 +6,22 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from radar_tracker.antenna import Antenna
 from radar_tracker.config import RadarTrackerConfig, ScanConfig
 from radar_tracker.planes import build_planes
 from radar_tracker.sensor import Radar
+from radar_tracker.turns import Turns
 from tracking_core.assembly import assemble
+from tracking_core.batches import Plots
 from tracking_core.composition import Setup
+from tracking_core.cycles import Cycles
 from tracking_core.several_plots import Extent
 
-__all__ = ['build_antenna', 'build_planes', 'build_setup']
+__all__ = [
+    'build_antenna', 'build_collectors', 'build_planes', 'build_setup', 'told_turn_time',
+]  # fmt: skip
 
 
 def build_setup(config: RadarTrackerConfig, radar: Radar) -> Setup:
@@ -38,3 +45,17 @@ def build_antenna(scan: ScanConfig) -> Antenna:
         stares=scan.assembly == 'snapshot',
         collects=collects,
     )
+
+
+def build_collectors(scan: ScanConfig, most: int) -> tuple[Turns | None, Cycles[Plots] | None]:
+    """Return what puts sectors together to turns, and messages to looks, of `most` plots each."""
+    is_look = scan.assembly == 'snapshot' and scan.period > 0.0
+    return (
+        Turns(scan.period, most) if scan.assembly == 'rotation' else None,
+        Cycles[Plots](scan.period, most) if is_look else None,
+    )
+
+
+def told_turn_time(scan: ScanConfig) -> float:
+    """Return the time of a scan in several messages [s]; 0: there are none, inf: to be learnt."""
+    return {'sector': np.inf, 'rotation': np.inf, 'snapshot': scan.period}.get(scan.assembly, 0.0)

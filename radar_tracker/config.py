@@ -38,7 +38,8 @@ class ScanConfig:
     period: float = parameter(
         0.0, unit='s', low=0.0,
         doc='time of one antenna turn, of which plots without times are then taken at the middle; '
-        '0: learnt from the plots',
+        '0: learnt from the plots. Of snapshots, time of a look that comes in several messages, '
+        'as one plot each: they are collected, and used when the next look begins',
     )  # fmt: skip
 
     def __post_init__(self) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from msg_adapters.bad_message import BadMessage
 from msg_adapters.bodies import Bodies
+from msg_adapters.kinds.menu import is_single
 from msg_adapters.markers import to_markers
 from msg_adapters.message_types import MessageTypes
 from msg_adapters.plots import to_plots
@@ -78,8 +79,8 @@ class RadarInstrument:
 
     @property
     def shares_stamps(self) -> bool:
-        """No: an antenna needs time from one sector to the next."""
-        return False
+        """Where a look in several messages is collected; an antenna needs time between sectors."""
+        return self.tracker.cycles is not None
 
     @property
     def reach(self) -> float:
@@ -91,6 +92,8 @@ class RadarInstrument:
         config = self.tracker.config
         longest = self.tracker.antenna.longest_offset
         reading = to_plots(msg, config.sensor, config.max_plots, self._overrides, longest)
+        if self.shares_stamps and is_single(msg):
+            reading = replace(reading, note='')
         both = mapping and len(reading.plots)
         if both and reading.is_polar != ({'range', 'azimuth'} <= mapping.keys()):
             raise BadMessage(

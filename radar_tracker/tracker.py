@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from radar_tracker.build import build_antenna, build_setup
+from radar_tracker.build import build_antenna, build_collectors, build_setup, told_turn_time
 from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.conversion import azimuth_of, farthest
 from radar_tracker.heights import flat_after, is_other
@@ -20,7 +20,6 @@ from radar_tracker.plausible import coarsest, fastest
 from radar_tracker.sector_clock import SectorClock
 from radar_tracker.sensor import Radar
 from radar_tracker.sweep import Beam
-from radar_tracker.turns import Turns
 from tracking_core.batches import Coverage, Floats, Plots, Tracks
 from tracking_core.platform import Platform, pose_at
 from tracking_core.space import Space
@@ -43,7 +42,7 @@ class RadarTracker:
         scan, most = self.config.scan, self.config.max_plots
         self.antenna = build_antenna(scan)
         self.sectors = SectorClock(scan)
-        self.turns = Turns(scan.period, most) if scan.assembly == 'rotation' else None
+        self.turns, self.cycles = build_collectors(scan, most)
         self.radar = Radar(self.config.sensor, self.config.sensor.dimensions or 2, is_polar=True)
         self.is_known, self.flat = False, 0  # which radar it is; plots in a row without a height
         self.farthest = 0.0  # plot so far [m]
@@ -62,9 +61,8 @@ class RadarTracker:
 
     @property
     def turn_time(self) -> float:
-        """Time of one turn of the antenna [s], 0 if it is not known to turn, inf: but will be."""
-        cuts_turns = self.config.scan.assembly in ('sector', 'rotation')
-        return self.antenna.turn_time or (np.inf if cuts_turns else 0.0)
+        """Time of a turn, or of a look in parts [s]; 0: messages are looks, inf: not known yet."""
+        return self.antenna.turn_time or told_turn_time(self.config.scan)
 
     def save(self) -> dict[str, Any]:
         """Return what `restore` takes to go back to this moment: references, no copies of data."""
@@ -147,19 +145,24 @@ class RadarTracker:
             If own ship is not known at the time of the plots.
 
         """
-        self._recognise(plots)
-        turns, rate = self.turns, self.antenna.rotation_rate
-        collected = turns.add(plots, rate) if turns else plots
+        collected = self._collect(plots)
         if collected is None:
             return self.tracks
+        self._recognise(collected)
         pose = pose_at(platform, collected.time)
         self._allow_for(PlatformDoubt.of(pose) if platform is not None else None)
-        azimuth = azimuth_of(collected, self.radar.is_polar)
+        azimuth, turns = azimuth_of(collected, self.radar.is_polar), self.turns
         sweep = self.antenna.follow(collected, azimuth, beam, turns.part if turns else 0.0)
         poses = pose_at(platform, sweep.moments if platform is not None else sweep.ends)
         coverage = self.coverage = coverage_of(sweep, poses, self.config.sensor)
         volume = self.radar.plot_space_volume(self.farthest or self.config.sensor.range_max)
         return self.core.step(self.radar.measure(collected, pose, coverage, volume))
+
+    def _collect(self, plots: Plots) -> Plots | None:
+        """Return the turn or the look that is complete now, plots themselves where they are."""
+        if self.turns:
+            return self.turns.add(plots, self.antenna.rotation_rate)
+        return self.cycles.add(plots) if self.cycles else plots
 
     def _recognise(self, plots: Plots) -> None:
         """Learn from the first plots what radar this is, and how far it sees."""

@@ -12,11 +12,11 @@ import numpy as np
 
 from sonar_tracker.build import build_setup
 from sonar_tracker.config import SonarTrackerConfig
-from sonar_tracker.cycles import Cycles
 from sonar_tracker.ranging import RangeEstimates, Ranging
 from sonar_tracker.sensor import Sonar
 from sonar_tracker.turn_check import TurnCheck
 from tracking_core.batches import Bearings, Coverage, Floats, Tracks
+from tracking_core.cycles import Cycles
 from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
 from tracking_core.platform_pose import PlatformPose
@@ -55,7 +55,7 @@ class SonarTracker:
         self.core = Tracker(build_setup(self.config, self.sonar))
         self.core.reset(next_id)
         period, most = self.config.scan.period, self.config.max_plots
-        self.cycles = Cycles(period, most) if period else None
+        self.cycles = Cycles[Bearings](period, most) if period else None
         self.coverage = Coverage(0.0, 0.0)  # of the last cycle, in the tracking frame
         self.ranging = Ranging(self.config.ranging)
         self.turns = TurnCheck()

@@ -13,12 +13,12 @@ import pytest
 
 from msg_adapters.table import from_columns
 from sonar_tracker.config import SonarTrackerConfig
-from sonar_tracker.cycles import Cycles
 from sonar_tracker.node_config import sonar_node_config
 from sonar_tracker.session import sonar_session
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings
 from tracking_core.config import with_values
+from tracking_core.cycles import Cycles
 from tracking_core.rows import take
 
 typesys = pytest.importorskip('rosbags.typesys')
