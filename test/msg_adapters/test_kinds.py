@@ -148,6 +148,15 @@ def test_laser_scan_without_a_limit_has_no_echo_at_infinity(ros):
         assert reading.dropped == {}
 
 
+def test_laser_scan_whose_limits_no_echo_can_keep_is_refused(ros):
+    """As of a driver that leaves them 0: no look that saw nothing, but an empty one is."""
+    none = np.zeros(0, np.float32)
+    parts = {'header': header(ros), 'intensities': none, **laser_values(), 'range_max': 0.0}
+    with pytest.raises(BadMessage, match='range_min = 1, range_max = 0'):
+        to_plots(ros('sensor_msgs/LaserScan', ranges=np.ones(3, np.float32), **parts), RADAR, 9)
+    assert len(to_plots(ros('sensor_msgs/LaserScan', ranges=none, **parts), RADAR, 9).plots) == 0
+
+
 def test_laser_scan_and_poses_of_rclpy():
     """The same with the classes that a node receives."""
     sensor_msgs = pytest.importorskip('sensor_msgs.msg')
