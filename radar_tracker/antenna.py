@@ -69,10 +69,10 @@ class Antenna:
         """Time between a plot and the stamp of its message that can be true [s]."""
         if not self._rate:
             return np.inf
-        return _LONGEST * max(self.turn_time, self._interval)
+        return _LONGEST * max(self.turn_time, self.interval)
 
     @property
-    def _interval(self) -> float:
+    def interval(self) -> float:
         """How long it usually is from message to message [s], lost ones aside; 0: not known."""
         steps = np.sort(np.diff(self._stamps[-_INTERVALS - 1 :]))
         return float(steps[(len(steps) - 1) // 2]) if len(steps) else 0.0
@@ -119,7 +119,7 @@ class Antenna:
         The plots of the last messages must fit in; as much as they leave open, nothing changes.
         """
         period = self.turn_time
-        length = period if self._collects else min(self._interval, period)
+        length = period if self._collects else min(self.interval, period)
         if length and len(self._spans):
             first, last = np.sort(self._spans, axis=0).T
             earliest, latest = first[(len(first) - 1) // 2], last[len(last) // 2]
@@ -167,7 +167,7 @@ class Antenna:
         if self._rate:
             self._refine()
         elif (self._period or self._has_directions()) and self._is_worth_a_try():
-            interval = self._interval if self._full_turns and not self._collects else 0.0
+            interval = self.interval if self._full_turns and not self._collects else 0.0
             self._rate = find_rate(self._time, self._azimuth, self._period, interval)
             if self._rate:
                 self._refine()

@@ -23,6 +23,7 @@ from radar_tracker.config import RadarTrackerConfig
 from radar_tracker.doubts import doubts, height_doubts
 from radar_tracker.memory import recall, remember
 from radar_tracker.mounting import in_sensor_axes
+from radar_tracker.part_turns import PartTurns
 from radar_tracker.sensor_config import MountConfig
 from radar_tracker.told import tell_noise
 from radar_tracker.tracker import RadarTracker
@@ -70,7 +71,7 @@ class RadarInstrument:
         self._trails = Trails.empty(node_config.markers.history)
         self._plots, self._tells_noise = 0, False  # how many came; whether they tell their own
         self._has_height = config.sensor.dimensions < 3  # or needs none
-        self._untimed = UntimedPlots(config.sensor.azimuth_sd)
+        self._untimed, self._parts = UntimedPlots(config.sensor.azimuth_sd), PartTurns()
 
     @property
     def is_mounted(self) -> bool:
@@ -132,6 +133,8 @@ class RadarInstrument:
             self._has_height = bool(np.isfinite(told).any())
         local, sectors = relative(plots), self.tracker.sectors
         scan = self.tracker.config.scan
+        if scan.assembly == 'message':
+            self._parts.note(self.tracker.antenna)
         if scan.assembly == 'message' and not scan.period and not is_true:
             self._untimed.note(plots, platform)
         times = sectors.times(local)
@@ -145,6 +148,7 @@ class RadarInstrument:
         if not self._has_height:
             yield from height_doubts(self._plots)
         yield from self._untimed.doubts()
+        yield from self._parts.doubts()
 
     def to_table(self, previous: Tracks, header: Any) -> Any:
         """Return the track table."""

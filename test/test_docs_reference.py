@@ -151,6 +151,18 @@ def plots_of_eight(farthest, times):
     ]
 
 
+def sectors():
+    """Return twelve turns with sixteen contacts in eight messages each."""
+    place = np.linspace(0.01, 0.99, 16)  # of a turn
+    for number in range(96):
+        here = place[(8.0 * place).astype(int) == number % 8]
+        columns = {
+            'range': 3e4 + 1e3 * here, 'azimuth': 2.0 * np.pi * here,
+            'time': 4.0 * here - 0.5 * (number % 8),
+        }  # fmt: skip
+        yield from_columns(columns, 100.0 + 0.5 * number, 'radar', TYPES)
+
+
 def lines_of_sessions():
     """Make every mistake of the page once; return what was said."""
     said = []
@@ -193,6 +205,7 @@ def lines_of_sessions():
     use(odometry=reset)
     turns = [message(100.0 + step, range=[1e3, 2e3], azimuth=[0.1, 2.0]) for step in range(9)]
     use(*turns, odometry=[own_ship(90.0 + step, yaw=0.02 * step) for step in range(20)])
+    use(*sectors())
     return [*said, *lines_of_who_waits()]
 
 
