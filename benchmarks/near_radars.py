@@ -109,6 +109,7 @@ def notched(radar: SimulatedRadar, slowest: float, chance: float) -> Echoes:
 
 FEW = ((DRONE, 6), (BIRD, 6), (PERSON, 3))
 DENSE, RAIN = replace(STARING, clutter_per_turn=40.0), replace(TURNING, clutter_per_turn=60.0)
+PLACES = replace(STARING, position_sd=10.0)
 TURN = partial(crowd, looks=120, counts=FEW, radius=120.0)
 STARE = partial(crowd, looks=300, counts=FEW, radius=60.0)
 WALK = partial(crowd, radar=PEOPLE, looks=400)
@@ -123,6 +124,7 @@ CASES: dict[str, tuple[Callable[[int], Scene], tuple[str, ...]]] = {
     'drones, turning, hovering unseen': (partial(TURN, radar=TURNING, notch=(0.5, 0.05)), DRONES),
     'drones, staring': (partial(STARE, radar=STARING, notch=(0.2, 0.4)), DRONES),
     'drones, staring, 40 false plots': (partial(STARE, radar=DENSE, notch=(0.2, 0.4)), DRONES),
+    'drones, staring, in x and y': (partial(STARE, radar=PLACES, notch=(0.2, 0.4)), DRONES),
     'drones, swarm of 8 in 120 m': (
         partial(STARE, radar=STARING, counts=((DRONE, 8),), square=(600.0, 60.0)), DRONES),
     'drones, 3-D without Doppler': (

@@ -60,6 +60,14 @@ def test_preset_holds_its_contacts_and_follows_nobody_else(name):
     assert figures.nees < 3.0
 
 
+def test_preset_for_drones_knows_the_noise_of_places():
+    """With the default of 30 m they were found after 6.5 looks, among 0.7 false tracks."""
+    figures = run('drones, staring, in x and y', 'drone_radar', seed=92)
+    assert figures.held > 0.985
+    assert figures.found < 5.5
+    assert figures.false < 0.2
+
+
 @pytest.mark.parametrize('name', [name for name in CASES if name.startswith('near')])
 def test_defaults_hold_what_is_near(name):
     """Without a preset nothing was, before the farthest plot told how noisy plots can be."""
