@@ -94,7 +94,13 @@ def _check(name: str, value: Any, f: Any) -> None:
         low = -LARGEST if meta['low'] is None else meta['low']
         high = LARGEST if meta['high'] is None else meta['high']
         if not low <= number <= high:
-            raise ValueError(f'{name} must be in [{low}, {high}] {meta["unit"]}, got {number}')
+            limits = with_unit(f'[{low}, {high}]', meta['unit'])
+            raise ValueError(f'{name} must be in {limits}, got {number}')
+
+
+def with_unit(figure: str, unit: str) -> str:
+    """Return a figure as it stands in a text: plain numbers, of the unit '1', have none."""
+    return figure if unit in ('', '1') else f'{figure} {unit}'
 
 
 def _numbers(name: str, value: Any, f: Any) -> tuple[Any, ...]:

@@ -47,7 +47,7 @@ def test_with_values_sets_nested_parameters_and_keeps_the_rest() -> None:
         ({'zzz': 1.0}, 'unknown parameter zzz'),
         (
             {'gate.probability': 1.2},
-            'gate.probability must be in [0.5, 0.999999] 1, got 1.2',
+            'gate.probability must be in [0.5, 0.999999], got 1.2',
         ),
         ({'sensor.range_sd': 'far'}, "sensor.range_sd must be a number, got 'far'"),
         ({'sensor.range_sd': True}, 'sensor.range_sd must be a number, got True'),

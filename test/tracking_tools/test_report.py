@@ -77,7 +77,8 @@ def test_replay_writes_a_page_with_all_rows(
     assert_allclose(tracks['x'].max(), material.scene.published['x'].max() / 1000.0, rtol=1e-6)
     assert 'histogram' in content['figures']
     assert 'gospa' in content['figures']
-    assert 'sensor.range_sd' in html
+    for name, value in (('sensor.range_sd', '50 m'), ('gate.probability', '0.997')):
+        assert f'<td>{name}</td><td>{value}</td>' in html
     assert f'{len(np.unique(tracks["stamp"]))} scans with tracks' in html
     assert 'minutes from 2023-11-14 22:13:20 UTC' in html
     assert np.all(np.diff(tracks['id'].astype(int)) >= 0)

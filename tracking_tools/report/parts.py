@@ -9,6 +9,7 @@ from html import escape
 
 import numpy as np
 
+from tracking_core.config import with_unit
 from tracking_tools.evaluation.text import head, rows
 from tracking_tools.evaluation.units import in_words, UNITS
 from tracking_tools.report.material import Material, Setting
@@ -67,7 +68,7 @@ def settings_part(settings: Sequence[Setting]) -> str:
 
 
 def _setting_table(settings: Sequence[Setting]) -> str:
-    body = _table_rows((s.name, f'{s.value} {s.unit}', s.meaning) for s in settings)
+    body = _table_rows((s.name, with_unit(s.value, s.unit), s.meaning) for s in settings)
     return f'<table><tbody>{body}</tbody></table>'
 
 
