@@ -45,7 +45,8 @@ class FuzzyConfig:
     )  # fmt: skip
     gain_peaks: tuple[float, ...] = parameter(
         KHACHATUROV.conclusion.peaks, unit='1', low=0.0, high=1.0,
-        doc='the same for the raise of the gain, 0: alpha, 1: 1',
+        doc='where the sets very small, small, ... of the raise of the gain are full, '
+        '0: alpha, 1: 1',
     )  # fmt: skip
     rules: tuple[int, ...] = parameter(
         sum(KHACHATUROV.table, ()), unit='1', low=0,

@@ -39,8 +39,10 @@ class SensorConfig:
     elevation_sd: float = parameter(0.0026, unit='rad', doc='elevation noise', low=1e-6, high=0.5)
     range_rate_sd: float = parameter(2.0, unit='m/s', doc='range rate noise', low=1e-3)
     position_sd: float = parameter(
-        30.0, unit='m', low=1e-3, doc='noise of Cartesian plots; the same holds for it'
-    )
+        30.0, unit='m', low=1e-3,
+        doc='noise of Cartesian plots; '
+        '0.03 times the distance of the farthest plot is used at most',
+    )  # fmt: skip
     detection_probability: float = parameter(
         0.9, unit='1', low=0.01, high=0.999, live=True,
         doc='chance that a look at a contact gives a plot; '
@@ -53,7 +55,8 @@ class SensorConfig:
     )  # fmt: skip
     azimuth_resolution: float = parameter(
         0.0, unit='rad', low=0.0, high=1.0,
-        doc='the same in azimuth, and in elevation (3-D radar); both or neither',
+        doc='contacts nearer than this in azimuth, and in elevation (3-D radar), and than '
+        'range_resolution in range give one plot; both are set, or neither',
     )  # fmt: skip
     contact_size: float = parameter(
         0.0, unit='m', low=0.0, high=1e4,

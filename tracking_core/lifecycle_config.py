@@ -52,8 +52,8 @@ class MOfNConfig:
 
     hits: int = parameter(3, unit='1', doc='plots that confirm a track', low=1, high=60, live=True)
     looks: int = parameter(
-        5, unit='1', doc='... within so many looks from its start, or it is deleted', low=1,
-        high=60, live=True,
+        5, unit='1', low=1, high=60, live=True,
+        doc='a track with fewer plots than hits in so many looks from its start is deleted',
     )  # fmt: skip
     drop_misses: int = parameter(
         5, unit='1', doc='a confirmed track is deleted after so many misses in a row', low=1,
@@ -114,8 +114,8 @@ class ErrorRatioConfig:
     hits: int = parameter(4, unit='1', doc='looks that sharpen it confirm a track', low=1, high=60,
                           live=True)  # fmt: skip
     looks: int = parameter(
-        6, unit='1', doc='... within so many looks from its start, or it is deleted', low=1,
-        high=60, live=True,
+        6, unit='1', low=1, high=60, live=True,
+        doc='a track sharpened by fewer than hits of so many looks from its start is deleted',
     )  # fmt: skip
     drop_misses: int = parameter(
         5, unit='1', doc='a confirmed track is deleted after so many looks in a row that gave '
@@ -140,8 +140,8 @@ class MergeConfig:
     )  # fmt: skip
 
     looks: int = parameter(
-        6, unit='1', doc='... for so many looks in a row, if both are confirmed', low=1, high=100,
-        live=True,
+        6, unit='1', low=1, high=100, live=True,
+        doc='two confirmed tracks are one contact after so many looks in a row within distance',
     )  # fmt: skip
 
     def __post_init__(self) -> None:

@@ -24,6 +24,14 @@ def test_page_has_every_parameter_with_a_meaning() -> None:
         assert all(f'`{name}`' in page() for name in names)
 
 
+def test_each_parameter_is_understood_alone() -> None:
+    """`ros2 param describe` and the page of a recording show it without the one before."""
+    for configs in NODES.values():
+        words = [p.doc for config in configs for p in parameters(config)]
+        assert not [doc for doc in words if doc.startswith(('...', 'the same'))]
+        assert not [doc for doc in words if 'the same holds' in doc]
+
+
 def test_limits_may_be_typed_as_they_are_printed() -> None:
     """Rounded up, a whole turn would be refused."""
     assert '0.001 to 6.28318 |' in page()
