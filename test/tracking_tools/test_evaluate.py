@@ -169,7 +169,7 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
     'no_tracks': ({'/truth': FINE['/truth']}, r'no topic /radar_tracker/tracks or /sonar_tracker'),
     'no_truth': (
         {RADAR: FINE[RADAR]},
-        r'no topic /truth .* it has /radar.*truth:=/TOPIC',
+        r'no topic /truth .* it has /radar.*--truth BAG.*truth:=/TOPIC',
     ),
     'empty_tracks': ({**FINE, RADAR: {}}, 'no messages'),
     'empty_truth': ({**FINE, '/truth': {}}, '/truth has no rows'),

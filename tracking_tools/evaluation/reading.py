@@ -134,7 +134,7 @@ def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
 
     BadBag where there are none.
     """
-    _check_topic(bag, topic, 'truth')
+    _check_topic(bag, topic, 'truth with --truth BAG, or with --remap truth:=/TOPIC')
     table = read_rows(bag, topic, table_rows)
     if not table:
         raise BadBag(f'{bag}: {topic} has no rows')
@@ -150,7 +150,7 @@ def read_truth(bag: Path | str, topic: str, needed: Sequence[str]) -> Columns:
 
 def _read_tracks(bag: Path | str, topics: Topics, kind: str) -> tuple[Columns, Floats]:
     """Return the rows that are judged and the stamps of all tables, also of those without rows."""
-    _check_topic(bag, topics.tracks, 'tracks')
+    _check_topic(bag, topics.tracks, 'tracks with --remap tracks:=/TOPIC')
     tables: set[tuple[float, int]] = set()
 
     def convert(msg: Any) -> Columns:
@@ -172,13 +172,13 @@ def _read_tracks(bag: Path | str, topics: Topics, kind: str) -> tuple[Columns, F
     return choose(confirmed, np.argsort(confirmed['stamp'], kind='stable')), moments
 
 
-def _check_topic(bag: Path | str, topic: str, name: str) -> None:
+def _check_topic(bag: Path | str, topic: str, what: str) -> None:
     with open_bag(bag) as reader:
         kinds = {c.topic: c.msgtype for c in reader.connections}
         if kinds.get(topic) != POINT_CLOUD:
             raise BadBag(
                 f'{bag} has no topic {topic} of type {POINT_CLOUD}; it has {inventory(reader)}. '
-                f'Say which has the {name} with --remap {name}:=/TOPIC'
+                f'Say which has the {what}'
             )
 
 
