@@ -116,31 +116,32 @@ class RadarInstrument:
 
     def track(self, plots: Plots, platform: Platform | None, frame: TrackingFrame) -> Tracks:
         """Follow all contacts through the plots of one message."""
-        sensor = self.tracker.config.sensor
+        is_true = frame.tells_true(self.tracker.config.sensor.azimuth_reference)
+        local = self._relative(plots, platform) if is_true else plots
+        self._take_note(plots, platform, is_true)
+        times = self.tracker.sectors.times(local)
+        if times is not local.time:
+            plots = replace(plots, time=times)  # when own ship may have headed elsewhere
+            local = self._relative(plots, platform) if is_true else plots
+        return self.tracker.track(local, platform, self.tracker.sectors.beam)
 
-        is_true = frame.tells_true(sensor.azimuth_reference)
-
-        def relative(plots: Plots) -> Plots:
-            if not is_true:
-                return plots
-            return in_sensor_axes(plots, pose_at(platform, plots.time), sensor.mount)
-
+    def _take_note(self, plots: Plots, platform: Platform | None, is_true: bool) -> None:
+        """Note what `doubts` judges by; `is_true`: own ship's heading is in the azimuths."""
         self._plots += len(plots)
         if len(plots):
             self._tells_noise = tell_noise(plots, self.tracker.radar.is_polar)
         if not self._has_height:
-            told = plots.elevation, plots.position[:, 2]
-            self._has_height = bool(np.isfinite(told).any())
-        local, sectors = relative(plots), self.tracker.sectors
+            self._has_height = bool(np.isfinite((plots.elevation, plots.position[:, 2])).any())
         scan = self.tracker.config.scan
         if scan.assembly == 'message':
             self._parts.note(self.tracker.antenna)
         if scan.assembly == 'message' and not scan.period and not is_true:
             self._untimed.note(plots, platform)
-        times = sectors.times(local)
-        if times is not local.time:
-            local = relative(replace(plots, time=times))
-        return self.tracker.track(local, platform, sectors.beam)
+
+    def _relative(self, plots: Plots, platform: Platform | None) -> Plots:
+        """Return plots that are told by true azimuths in the axes of the sensor."""
+        mount = self.tracker.config.sensor.mount
+        return in_sensor_axes(plots, pose_at(platform, plots.time), mount)
 
     def doubts(self) -> Iterator[Doubt]:
         """Yield what the plots say against the parameters."""
