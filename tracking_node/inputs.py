@@ -46,9 +46,17 @@ class Inputs:
         """Take note of a message that came while the node was not active."""
         self._ledger.counts[topic].ignored(info.get('publication_sequence_number'))
 
-    def waiting(self, topic: str) -> list[Received]:
-        """Take all messages that wait, oldest first."""
-        return _take_waiting(self.subscriptions[topic])
+    def take_waiting(self, topic: str) -> list[Received]:
+        """Take all messages that wait, oldest first, out of the transport."""
+        subscription = self.subscriptions[topic]
+        waiting: list[Received] = []
+        with subscription.handle:
+            while len(waiting) < DEPTH:  # a publisher may be faster than we can take
+                taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
+                if taken is None:
+                    break
+                waiting.append(taken)
+        return waiting
 
     def freshest(self, topic: str, received: Received, max_delay: float) -> Received:
         """
@@ -67,20 +75,8 @@ class Inputs:
         self.count(topic, received[1])
         if max_delay == 0.0 or age(received[1]) <= max_delay:
             return received
-        for newer in self.waiting(topic):
+        for newer in self.take_waiting(topic):
             self._ledger.shed(topic)
             self.count(topic, newer[1])
             received = newer
         return received
-
-
-def _take_waiting(subscription: Any) -> list[tuple[Any, Any]]:
-    """Return what waits on a subscription, oldest first: messages, and what is known of each."""
-    waiting: list[tuple[Any, Any]] = []
-    with subscription.handle:
-        while len(waiting) < DEPTH:  # a publisher may be faster than we can take
-            taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
-            if taken is None:
-                break
-            waiting.append(taken)
-    return waiting

@@ -127,7 +127,7 @@ class LiveTopics:
             self._reporter.explain_idleness()
             return
         msg, info = self._inputs.freshest(self._topic, (msg, info), self._node_config.max_delay)
-        for odometry in self._inputs.waiting('ownship'):  # it must be known at the plots' time
+        for odometry in self._inputs.take_waiting('ownship'):  # known at the plots' time
             self._on_ownship(*odometry)
         self._reporter.plots_come()
         self._clock_check.compare(msg.header.stamp)
