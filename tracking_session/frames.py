@@ -22,7 +22,6 @@ WAYS_OUT = (
     'use_tf'
 )
 ONE_SENSOR = 'one node tracks with one sensor; if it is the same under another name, call ~/reset'
-
 _REMEMBERED = ('name', 'sensor', 'has_ship', 'polar', 'learnt')
 
 

@@ -24,8 +24,6 @@ from tracking_session.stamp_guard import StampGuard
 from tracking_session.twist_check import TwistCheck
 
 NEAREST = 0.007  # s between two samples that are kept; odometry up to 125 Hz is kept whole
-
-
 SILENT = 0.25  # of the patience, beyond twice the longest gap but one between odometries
 ARRIVALS = 40  # of odometry, the last ones, that count for it
 SHORT = 0.05  # s beyond the newest odometry for which own ship goes on as it moved
@@ -70,13 +68,12 @@ class Whereabouts:
     """
 
     def __init__(self, node_config: NodeConfig) -> None:
-        self._config, self.transforms = node_config, None
+        self._config = node_config
+        self.transforms: Transforms | None = None  # None: own ship's odometry tells
         self._guard = StampGuard(node_config.time_jump_threshold)
         self._leaps = LeapGuard(node_config.ownship_leap, node_config.ownship_timeout)
         self._twist = TwistCheck(node_config.ownship_timeout)
         self.reset()
-
-    transforms: Transforms | None
 
     def reset(self) -> None:
         """Forget the path."""
