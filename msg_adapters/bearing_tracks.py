@@ -24,7 +24,7 @@ _HEIGHTS = np.array([2, 5])  # z and vz
 
 
 class BearingStates(Protocol):
-    """Directions of tracks (T,)."""
+    """Directions of T tracks, an array (T,) each."""
 
     @property
     def bearing(self) -> Floats:
@@ -44,7 +44,7 @@ class BearingStates(Protocol):
 
 
 class Ranges(Protocol):
-    """Where tracks (T,) are, NaN where that cannot be known."""
+    """Where T tracks are, an array (T,) each if not said; NaN where that cannot be known."""
 
     @property
     def observable(self) -> Bools:

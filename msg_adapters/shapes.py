@@ -46,7 +46,7 @@ def erase_all(header: Any, types: MessageTypes) -> Any:
 
 
 def erase(shown: Set[int], ids: Ints, spaces: tuple[str, ...], brush: Brush) -> list[Any]:
-    """Return what deletes the shapes of ids that were shown and are gone."""
+    """Return what deletes in these name spaces what was shown and is none of the ids (T,)."""
     return [
         brush.marker(space, identity, 'DELETE')
         for identity in sorted(shown - set(ids.tolist()))

@@ -80,7 +80,9 @@ def linearised(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
 
 def unbiased(polar: Floats, sd: Floats) -> tuple[Floats, Floats]:
     """
-    Return position and covariance with the mean shift of large angle noise taken out.
+    Return position (M, d) and covariance (M, d, d), the mean shift of large angle noise taken out.
+
+    Plots as in `to_cartesian`.
 
     References
     ----------

@@ -73,7 +73,17 @@ def worth_keeping(time: Floats, turn_time: float, period: float) -> Bools:
 
 
 def refine_rate(time: Floats, azimuth: Floats, rate: float) -> float:
-    """Return the rate near this one that fits the plots best, 0 when they are not on the beam."""
+    """
+    Return the rate near this one that fits the plots best, 0 when they are not on the beam.
+
+    Parameters
+    ----------
+    time, azimuth : (M > 0,) arrays
+        Of the plots [s]; sensor axes [rad].
+    rate : float
+        About that of the antenna, anticlockwise positive [rad/s].
+
+    """
     t = time - time.mean()
     square = float(t @ t)
     for _ in range(3):
@@ -95,7 +105,7 @@ def unevenness(time: Floats, azimuth: Floats, rate: float) -> float:
 
 
 def in_step(time: Floats, azimuth: Floats, rates: Floats) -> Floats:
-    """Return the mean resultant length (R,) of azimuth minus antenna at each rate (R,)."""
+    """Return the mean resultant length (R,) of azimuths (M,) [rad] minus antenna at each rate."""
     middle, parts = time - time.mean(), len(rates) * len(time) // _AT_ONCE + 1
     return np.concatenate(
         [_resultant(azimuth - part[:, None] * middle) for part in np.array_split(rates, parts)]

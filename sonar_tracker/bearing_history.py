@@ -56,7 +56,7 @@ class BearingHistory:
         self._points = np.swapaxes(memory['points'], 0, 1).copy()
 
     def follow(self, ids: Ints) -> None:
-        """Keep the rows of these tracks only, in this order; new ones have no marks."""
+        """Keep the rows of these tracks (T,) only, in this order; new ones have no marks."""
         if np.array_equal(ids, self.id):
             return
         _, new, old = np.intersect1d(ids, self.id, return_indices=True)
@@ -92,7 +92,7 @@ class BearingHistory:
         return np.where(self._count > 0, last, -np.inf)
 
     def read(self, rows: Ints) -> PastMarks:
-        """Return the marks of these rows that are in the window."""
+        """Return the marks of these rows (N,) that are in the window."""
         time, bearing, x, y, weight = self._points[:, rows]
         recent = time >= self.newest()[rows, None] - self._window
         kept = recent & (np.arange(time.shape[1]) < self._count[rows, None])
@@ -101,7 +101,7 @@ class BearingHistory:
         )
 
     def forget_older_half(self, rows: Ints) -> None:
-        """Drop the older half of the marks of these rows."""
+        """Drop the older half of the marks of these rows (N,)."""
         place = np.arange(self._points.shape[2])
         count = self._count[rows, None]
         self._keep(rows, (place >= count // 2) & (place < count))

@@ -101,7 +101,7 @@ class Ranging:
         self.fit_rows(waiting[order[: self.config.tracks_per_cycle]], heading_sd)
 
     def fit_rows(self, rows: Ints, heading_sd: float = 0.0) -> None:
-        """Fit the tracks of these rows; those of no straight course start anew."""
+        """Fit the tracks of these rows (N,); those of no straight course start anew."""
         if len(rows) == 0:
             return
         found = self.courses

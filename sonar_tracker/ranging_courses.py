@@ -37,7 +37,7 @@ class Courses:
         )
 
     def of(self, old: Ints, ids: Ints) -> Courses:
-        """Return the courses of other ids, where these are of the old ones; NaN: unknown."""
+        """Return the courses of other ids (T,), where these are of the old ones; NaN: unknown."""
         if np.array_equal(old, ids):
             return self
         _, new_rows, old_rows = np.intersect1d(ids, old, return_indices=True)

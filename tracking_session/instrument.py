@@ -70,7 +70,7 @@ class SensorTracker(Protocol):
         """Go on with other live parameters."""
 
     def start_track(self, position: Floats, time: float) -> int:
-        """Start a confirmed track; return its id."""
+        """Start a confirmed track at a position (2,) or (3,) [m] and a time [s]; return its id."""
 
     def drop_track(self, track_id: int) -> bool:
         """Delete one track; return whether it was there."""

@@ -46,7 +46,7 @@ class Transforms(Protocol):
 
     def sensor(self, frame: str, into: str, times: Floats) -> Platform:
         """
-        Return where the sensor's frame was in another one, from the first to the last time [s].
+        Return where the sensor's frame was in another one, all through these times (K,) [s].
 
         Raises
         ------

@@ -113,5 +113,5 @@ def _owner(scene: BearingScene) -> Floats:
 
 
 def bearing_at(path: Columns, time: Floats) -> Floats:
-    """Return the bearing of a path at other times [s], in a turn of its own [rad]."""
+    """Return the bearing (N,) [rad] of a path at other times (N,) [s], in a turn of its own."""
     return np.interp(time, path['time'], np.unwrap(path['bearing']))

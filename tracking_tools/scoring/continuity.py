@@ -49,7 +49,7 @@ def continuity(
         All that the tracker said.
     matches : Matches
         One-to-one matches.
-    near : array
+    near : (N,) array
         Ids of tracks that were ever near anything real.
     stretches : Stretches
         What ought to be held, and when.

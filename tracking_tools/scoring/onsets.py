@@ -57,7 +57,17 @@ def _turns(contact: Truth) -> tuple[list[int], list[int]]:
 
 
 def false_alarms(probability: Floats, matches: Matches) -> float:
-    """Return in which share of the rows on straight contacts a manoeuvre was told."""
+    """
+    Return in which share of the rows on straight contacts a manoeuvre was told.
+
+    Parameters
+    ----------
+    probability : (N,) array
+        Of a manoeuvre, as all rows tell it; NaN: not told.
+    matches : Matches
+        Rows and their contacts.
+
+    """
     told = probability[matches.row[~matches.turning]]
     told = told[np.isfinite(told)]
     return float((told >= SURE).mean()) if len(told) else NAN

@@ -89,7 +89,7 @@ class Truth:
     def of(
         ids: Ints, time: Floats, position: Floats, velocity: Floats, turning: Bools | None = None
     ) -> Truth:
-        """Return samples in any order as truth; without `turning` nobody turns."""
+        """Return columns of samples in any order as truth; without `turning` nobody turns."""
         turning = np.zeros(len(ids), bool) if turning is None else turning
         order = np.lexsort((time, ids))
         return Truth(ids[order], time[order], position[order], velocity[order], turning[order])
@@ -100,7 +100,7 @@ class Truth:
 
     def at(self, times: Floats) -> TruePlaces:
         """
-        Return where a single contact was; beyond its samples it goes straight on.
+        Return where a single contact was at times (N,) [s]; beyond its samples it goes straight.
 
         Between samples positions follow the cubic through positions and velocities.
         """

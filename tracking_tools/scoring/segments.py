@@ -52,7 +52,7 @@ def relative_tracking_time(ids: Ints) -> float:
     """
     Return the mean length of unbroken stays over the time that the contact was there.
 
-    One break halves it, however short.
+    One break halves it, however short; ids (K,) as of `holders`.
 
     References
     ----------

@@ -75,7 +75,7 @@ class Stretches:
         return self.last_scan - self.first_scan + 1
 
     def row_of(self, contact: Ints, scan: Ints) -> Ints:
-        """Return for pairs of contact and scan the row that they are in, -1 for none."""
+        """Return for pairs of contact and scan (N,) the row (N,) that they are in, -1 for none."""
         if len(self.id) == 0:
             return np.full(len(contact), -1)
         span = int(max(self.last_scan.max(), scan.max(initial=0))) + 1
@@ -85,7 +85,7 @@ class Stretches:
         return np.where(inside, row, -1)
 
     def wanted(self, contact: Ints, scan: Ints) -> Bools:
-        """Return for pairs of contact and scan whether the contact ought to be held there."""
+        """Return for pairs of contact and scan (N,) whether the contact ought to be held there."""
         return self.row_of(contact, scan) >= 0
 
     def of_contact(self, contact: int) -> Stretches:
@@ -94,7 +94,7 @@ class Stretches:
 
 
 def spans(truth: Truth) -> tuple[Floats, Floats, Ints]:
-    """Return from when to when [s] each contact is there without a gap, and its id."""
+    """Return from when to when (J,) [s] contacts are there without a gap, and their ids (J,)."""
     if len(truth.id) == 0:
         return np.zeros(0), np.zeros(0), np.zeros(0, np.int64)
     cut = absences(truth.id, truth.time)
