@@ -20,6 +20,7 @@ from tracking_tools.bags import BagWriter, nanoseconds
 from tracking_tools.replay_topics import Topics
 from tracking_tools.report.material import gather, Sources
 from tracking_tools.report.page import write_page
+from tracking_tools.report.panels import NOTHING, overview
 
 PATIENCE = 60_000  # on a busy machine [ms]
 EPOCH, LIFE = 1000.0, 1800.0
@@ -91,6 +92,14 @@ def test_nothing_is_drawn_over_a_pause_of_the_recording(browser: Any, tmp_path: 
     assert gospa == 2 * [False, *(10 * [True]), False]
     page.evaluate('() => contactTracks.seek(200)')
     assert page.evaluate('() => contactTracks.models.truth.data.x.length') == 0
+
+
+def test_overview_has_holes_in_pauses_only() -> None:
+    """A track of a radar whose scans are one or two seconds apart, and then ten, is a line."""
+    stamps = np.array([0.0, 1.0, 2.0, 4.0, 5.0, 7.0, 8.0, 18.0, 19.0])
+    table = {name: np.ones(9) for name in ('id', 'existence', 'manoeuvre', 'light')}
+    shown = overview({**table, 'stamp': stamps}, 1.0).renderers[0].data_source.data['image'][0]
+    assert np.flatnonzero(shown[0] == NOTHING).tolist() == [*range(9, 18)]
 
 
 def test_hours_show_the_tracks_near_in_time(browser: Any, tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ from tracking_tools.evaluation.units import UNITS
 from tracking_tools.picture_style import COLOURS, FAINT, INK, PANEL, PROBABILITY, TURN
 from tracking_tools.report.columns import AMBER, DARK, GREEN, LIGHTS, RED
 from tracking_tools.report.stage import dress, MINUTE
-from tracking_tools.scoring.stretches import absences
+from tracking_tools.scoring.stretches import absences, OUT_OF_SIGHT
 
 LIGHT_COLOURS = {GREEN: '#43c59e', AMBER: '#f9c74f', RED: '#f25f5c', DARK: '#56657c'}
 WIDEST = 2000  # cells of the overview
@@ -73,8 +73,8 @@ def overview(table: Columns, period: float) -> Any:
     ids = np.unique(table['id'])
     end = float(table['stamp'].max()) + period
     cells = int(np.clip(np.ceil(end / period), 1, WIDEST))
-    column_of = np.minimum((table['stamp'] * (cells / end)).astype(int), cells - 1)
-    at = (np.searchsorted(ids, table['id']), column_of)
+    row, cell = _filled(table['stamp'], period, end, cells)
+    at = (np.searchsorted(ids, table['id'])[row], cell)
     figure = over_time('overview', '', max(140, min(15 * len(ids) + 60, 520)), (0.0, end / MINUTE),
                        (len(ids), 0.0), tools='xpan,xwheel_zoom,reset')  # fmt: skip
     figure.yaxis.ticker = FixedTicker(ticks=(np.arange(len(ids)) + 0.5)[:: _step(len(ids))])
@@ -83,13 +83,29 @@ def overview(table: Columns, period: float) -> Any:
     for name, palette in (*MAPS.items(), ('light', tuple(LIGHT_COLOURS.values()))):
         values = table[name] if name == 'light' else np.round(100.0 * np.nan_to_num(table[name]))
         image: NDArray[np.uint8] = np.full((len(ids), cells), NOTHING, np.uint8)
-        image[at] = values.astype(np.uint8)
+        image[at] = values.astype(np.uint8)[row]
         high = len(palette) - 1 if name == 'light' else 100
         mapper = LinearColorMapper(palette, low=0, high=high, high_color=CLEAR)
         drawn = figure.image([image], x=0.0, y=0.0, dw=end / MINUTE, dh=len(ids),
                              color_mapper=mapper, name=f'overview_{name}')  # fmt: skip
         drawn.visible = name == 'existence'
     return figure
+
+
+def _filled(stamp: Floats, period: float, end: float, cells: int) -> tuple[Ints, Ints]:
+    """
+    Return rows (N,) of a table, and the cells (N,) of the time up to `end` [s] that they fill.
+
+    Each row lasts to the next scan; where that comes after a pause, one `period` [s].
+    """
+    moments, scan = np.unique(stamp, return_inverse=True)
+    until = np.append(moments[1:], end)
+    until = np.where(until - moments <= OUT_OF_SIGHT * period, until, moments + period)
+    first, beyond = ((time * (cells / end)).astype(int) for time in (moments, until))
+    count = np.maximum(beyond - first, 1)[scan]
+    row = np.repeat(np.arange(len(stamp)), count)
+    nth = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+    return row, np.minimum(first[scan][row] + nth, cells - 1)
 
 
 def gospa_panel(judgement: Judgement) -> Any:
