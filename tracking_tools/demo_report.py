@@ -34,7 +34,10 @@ def _holds(scene: Scene) -> list[str]:
     holds = find_holds(scene)
     if not holds:
         numbers, looks = np.unique(scene.tracks.get('id', ()), return_counts=True)
-        return [f'{len(numbers)} confirmed tracks, {looks.sum()} looks; the scene has no truth']
+        why = 'the scene has no truth'
+        if scene.has_truth:
+            why = 'the truth is of other moments than the tracks: evaluate compares them'
+        return [f'{len(numbers)} confirmed tracks, {looks.sum()} looks; {why}']
     return [
         ' aircraft  in sight    held  tracks       error',
         *(_line(hold) for hold in holds),

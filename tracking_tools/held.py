@@ -35,11 +35,13 @@ class Hold:
 
 
 def find_holds(scene: Scene) -> list[Hold]:
-    """Return how each contact of the truth was held, in order of their ids."""
+    """Return how each contact of the truth was held, if it is told at the stamps of tables."""
     if not scene.has_truth or not len(scene.published.get('id', ())):
         return []
     stamps = np.unique(scene.truth['stamp'])
     told = choose(scene.published, np.isin(scene.published['stamp'], stamps))
+    if not len(told['id']):
+        return []
     truth = positions_of(scene.truth, turning=np.inf)
     matches = match(position_rows(told, stamps, 3), truth, RADIUS['radar'])
     return [
