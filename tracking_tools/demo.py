@@ -44,7 +44,7 @@ class Demo:
     make_recording: Callable[[Path], None]
     parameters: Path
     rate: float  # times real time
-    finish: Callable[[Path, Path, Path, Configs, bool], str]
+    finish: Callable[[Path, Path, Path, Configs, Topics, bool], str]
     """Draws a recording and its tracks, ours or another's, and returns what there is to say."""
 
 
@@ -65,6 +65,7 @@ def main(arguments: Sequence[str] | None = None, demo: Demo | None = None) -> in
 
 def show(chosen: argparse.Namespace, demo: Demo) -> None:
     """Track the recording, say how well, and draw it."""
+    topics = Topics.remapped(chosen.remap, demo.sensor)
     out, name = chosen.output, demo.name
     tracks, picture, recording = out / f'{name}_tracks', out / f'{name}.png', chosen.recording
     page = out / f'{name}.html'
@@ -78,16 +79,17 @@ def show(chosen: argparse.Namespace, demo: Demo) -> None:
         demo.make_recording(recording)
     if chosen.live:
         log = out / f'{name}_node.log'
-        play(recording, tracks, chosen.params, chosen.rate, log, demo.sensor)
+        play(recording, tracks, chosen.params, chosen.rate, log, demo.sensor, topics)
     configs = read_configs(chosen.params, {}, demo.sensor)
     taken: list[float] = []
     if not chosen.live:
-        summary = replay(recording, tracks, configs, sensor=demo.sensor)
+        summary = replay(recording, tracks, configs, topics, sensor=demo.sensor)
         taken = summary.step_times
         print(summary)
     print('drawing ...', flush=True)
-    print(demo.finish(recording, tracks, picture, configs, chosen.recording == demo.recording))
-    where = (demo.sensor.kind, Topics.of(demo.sensor), recording, tracks)
+    is_ours = chosen.recording == demo.recording
+    print(demo.finish(recording, tracks, picture, configs, topics, is_ours))
+    where = (demo.sensor.kind, topics, recording, tracks)
     try:
         load_page().report_replay(where, configs, taken, page)
     except ModuleNotFoundError as error:
@@ -121,14 +123,14 @@ def _parser(demo: Demo) -> argparse.ArgumentParser:
     add('--no-live', dest='live', action='store_false', help='replay instead, without a node')
     add('--recording', type=Path, default=demo.recording, metavar='BAG', help='another scene')
     add('--params', type=parameter_file, default=demo.parameters, metavar='FILE', help='for it')
+    add('--remap', action='append', default=[], metavar='FROM:=TO', help='as plots:=/radar/plots')
     return parser
 
 
 def _finish_radar(
-    recording: Path, tracks: Path, picture: Path, configs: Configs, is_ours: bool
+    recording: Path, tracks: Path, picture: Path, configs: Configs, topics: Topics, is_ours: bool
 ) -> str:
     tracker, node = configs
-    topics = Topics()
     scene = read_scene(recording, tracks, topics, tracker.sensor, vars(node.fields))
     draw(scene, picture, TITLE if is_ours else recording.name)
     return report(scene, tracks, topics.tracks, picture)

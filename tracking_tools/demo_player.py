@@ -19,6 +19,7 @@ from tracking_tools.bags import BagWriter, open_bag, POINT_CLOUD
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
 from tracking_tools.replay import RADAR
 from tracking_tools.replay_topics import (
+    check_named,
     check_topics,
     DIAGNOSTIC_ARRAY,
     DIAGNOSTICS,
@@ -35,6 +36,7 @@ def play(
     rate: float,
     log: Path,
     sensor: SensorKind = RADAR,
+    topics: Topics | None = None,
 ) -> None:
     """
     Play a recording to the live node and record its tracks.
@@ -53,6 +55,8 @@ def play(
         File for what the node says.
     sensor : SensorKind
         What the plots are from.
+    topics : Topics, optional
+        Where the messages are in the bags; the names that the node has by default.
 
     Raises
     ------
@@ -61,26 +65,28 @@ def play(
 
     """
     recorder = import_module('tracking_tools.recording')  # needs rclpy, the replay does not
-    topics = Topics.of(sensor)
+    live = Topics.of(sensor)
+    topics = topics or live
     with open_bag(recording) as bag, private_domain() as domain_id:
         check_topics(bag, topics, recording)
-        with_own_ship = topics.ownship in bag.topics
+        check_named(bag, topics, recording)
         command = python_node(f'{sensor.node}.node', '--params-file', str(parameters))
         print(f'{sensor.node}: starting in ROS domain {domain_id}, log in {log}', flush=True)
         node = NodeProcess(command, domain_id, log)
-        own_ship = topics.ownship if with_own_ship else ''
+        own_ship = live.ownship if topics.ownship in bag.topics else ''
         with (
             node,
             recorder.open_player(
-                topics.plots, topics.tracks, domain_id, node.check, own_ship
+                live.plots, live.tracks, domain_id, node.check, own_ship
             ) as player,
             BagWriter(tracks) as out,
         ):
             out.announce(topics.tracks, POINT_CLOUD)
             told = player.watch_health(DIAGNOSTICS)
             player.find_tracker()
-            for topic, received, raw in _paced(bag, player.wait, rate, (topics.plots, own_ship)):
-                if topic == own_ship:
+            played = (topics.plots, topics.ownship)
+            for topic, received, raw in _paced(bag, player.wait, rate, played):
+                if topic == topics.ownship:
                     player.tell_own_ship(raw)
                     continue
                 out.write_raw(topics.tracks, POINT_CLOUD, _answer(player, raw, log), received)

@@ -65,10 +65,11 @@ def _crossed(crossing: Crossing) -> str:
     return f'Tracks {one} and {other} cross in minute {crossing.time / MINUTE:.1f}.'
 
 
-def finish(recording: Path, tracks: Path, picture: Path, configs: Configs, is_ours: bool) -> str:
+def finish(
+    recording: Path, tracks: Path, picture: Path, configs: Configs, topics: Topics, is_ours: bool
+) -> str:
     """Draw the recording and its tracks, and return what there is to say."""
     tracker, node = configs
-    topics = Topics.of(SONAR)
     scene = read_bearing_scene(recording, tracks, topics, tracker.sensor, vars(node.fields))
     draw(scene, picture, TITLE if is_ours else recording.name)
     return report(scene, tracks, topics.tracks, picture)

@@ -14,7 +14,7 @@ import pytest
 
 from msg_adapters.table import to_columns
 from tracking_tools import demo_sonar
-from tracking_tools.bags import open_bag
+from tracking_tools.bags import BagWriter, open_bag
 from tracking_tools.demo import main, RADAR_DEMO
 from tracking_tools.held import count_false, find_holds
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
@@ -76,6 +76,22 @@ def test_demo_ends_with_tracks_and_a_picture(cut_bag, tmp_path):
         ]
     assert len(tables) == 40
     assert np.sum(tables[-1]['status'] == 1) >= 5
+
+
+@pytest.mark.parametrize('live', [[], ['--no-live']], ids=['live', 'replay'])
+def test_demo_plays_a_recording_with_other_topics(live, cut_bag, tmp_path, capsys):
+    """As the tutorial says, by the rule of replay; the node listens on its own topic."""
+    with BagWriter(tmp_path / 'bag') as out, open_bag(cut_bag(10)) as bag:
+        for connection, received, raw in bag.messages():
+            out.write_raw(f'/site{connection.topic}', connection.msgtype, raw, received)
+    given = ['--recording', str(tmp_path / 'bag'), '--output', str(tmp_path), '--rate', '1e6']
+    assert main([*given, *live]) == 1
+    assert 'with --remap plots:=/TOPIC' in capsys.readouterr().err
+    rules = ['--remap', 'plots:=/site/plots', '--remap', 'truth:=/site/truth']
+    assert main([*given, *live, *rules]) == 0
+    assert 'aircraft were held' in capsys.readouterr().out
+    with open_bag(tmp_path / 'demo_tracks') as bag:
+        assert bag.topics['/radar_tracker/tracks'].msgcount == 10
 
 
 @pytest.mark.slow
