@@ -14,6 +14,7 @@ from typing import Any
 from rosbags.highlevel import AnyReader
 from tqdm import tqdm
 
+from msg_adapters.kinds.menu import check_type
 from msg_adapters.message_types import NANOSECONDS
 from tracking_tools.bags import BagWriter, open_bag, POINT_CLOUD
 from tracking_tools.node_process import NodeFailed, NodeProcess, private_domain, python_node
@@ -70,14 +71,16 @@ def play(
     with open_bag(recording) as bag, private_domain() as domain_id:
         check_topics(bag, topics, recording)
         check_named(bag, topics, recording)
-        command = python_node(f'{sensor.node}.node', '--params-file', str(parameters))
+        kind = check_type(bag.topics[topics.plots].msgtype or '')
+        given = ('--params-file', str(parameters), '-p', f'input_type:={kind}')
+        command = python_node(f'{sensor.node}.node', *given)
         print(f'{sensor.node}: starting in ROS domain {domain_id}, log in {log}', flush=True)
         node = NodeProcess(command, domain_id, log)
         own_ship = live.ownship if topics.ownship in bag.topics else ''
         with (
             node,
             recorder.open_player(
-                live.plots, live.tracks, domain_id, node.check, own_ship
+                live.plots, live.tracks, domain_id, node.check, own_ship, kind
             ) as player,
             BagWriter(tracks) as out,
         ):

@@ -20,6 +20,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import Trigger
 
+from msg_adapters.kinds.menu import message_class, POINT_CLOUD
 from tracking_tools.node_process import NodeFailed
 from tracking_tools.peer import AGAIN, Peer
 
@@ -40,8 +41,8 @@ class Player:
     """
     Plays plots to a tracker.
 
-    Publishers: plots (sensor_msgs/PointCloud2, reliable, keep last 50) and, where it has a name,
-    own ship (nav_msgs/Odometry, the same). Subscriber: tracks. Client: the tracker's reset.
+    Publishers: plots (reliable, keep last 50) and, where it has a name, own ship (Odometry, the
+    same). Subscriber: tracks. Client: the tracker's reset.
 
     Parameters
     ----------
@@ -51,15 +52,24 @@ class Player:
         Topics.
     own_ship : str
         Topic, or ''.
+    kind : str
+        Message type of the plots, as the tracker's `input_type`.
 
     """
 
-    def __init__(self, peer: Peer, plots: str, tracks: str, own_ship: str = '') -> None:
+    def __init__(
+        self,
+        peer: Peer,
+        plots: str,
+        tracks: str,
+        own_ship: str = '',
+        kind: str = POINT_CLOUD,
+    ) -> None:
         self._peer, self._reset = peer, f'{tracks.rpartition("/")[0]}/reset'
         self._is_known = False  # to the tracker, which has been heard
         self._answers: list[bytes] = []
         self._newest: bytes | None = None  # odometry of own ship
-        self._plots = peer.tell(PointCloud2, plots)
+        self._plots = peer.tell(message_class(kind), plots)
         self._tracks = peer.hear(PointCloud2, tracks, self._answers, raw=True)
         self._own_ship = peer.tell(Odometry, own_ship) if own_ship else None
 
@@ -124,8 +134,13 @@ class Player:
 
 @contextmanager
 def open_player(
-    plots: str, tracks: str, domain_id: int, check: Callable[[], object], own_ship: str = ''
+    plots: str,
+    tracks: str,
+    domain_id: int,
+    check: Callable[[], object],
+    own_ship: str = '',
+    kind: str = POINT_CLOUD,
 ) -> Iterator[Player]:
     """Yield a player in this ROS domain; `check` raises when waiting has become useless."""
     with Peer(domain_id, 'recording_player', check=check) as peer:
-        yield Player(peer, plots, tracks, own_ship)
+        yield Player(peer, plots, tracks, own_ship, kind)

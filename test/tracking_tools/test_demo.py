@@ -11,7 +11,9 @@ import time
 
 import numpy as np
 import pytest
+from rosbags.typesys import get_typestore, Stores
 
+from msg_adapters.message_types import rosbags_types
 from msg_adapters.table import to_columns
 from tracking_tools import demo_sonar
 from tracking_tools.bags import BagWriter, open_bag
@@ -92,6 +94,24 @@ def test_demo_plays_a_recording_with_other_topics(live, cut_bag, tmp_path, capsy
     assert 'aircraft were held' in capsys.readouterr().out
     with open_bag(tmp_path / 'demo_tracks') as bag:
         assert bag.topics['/radar_tracker/tracks'].msgcount == 10
+
+
+def test_demo_plays_plots_of_another_type(tmp_path):
+    """The node is told which: it is not sent the bytes of a LaserScan as those of a cloud."""
+    types = rosbags_types()
+    with BagWriter(tmp_path / 'bag') as out:
+        for second in range(1, 6):
+            ranges = np.full(360, np.inf, np.float32)
+            ranges[[40, 200]] = 60.0, 30.0
+            msg = get_typestore(Stores.ROS2_JAZZY).types['sensor_msgs/msg/LaserScan'](
+                types.Header(types.Time(second, 0), 'laser'), -np.pi, np.pi, np.pi / 180.0, 0.0,
+                1.0, 1.0, 100.0, ranges, np.zeros(0, np.float32),
+            )  # fmt: skip
+            out.write('plots', msg, second * 10**9)
+    given = ['--recording', str(tmp_path / 'bag'), '--output', str(tmp_path), '--rate', '1e6']
+    assert main([*given, '--params', str(ROOT / 'config' / 'harbour_radar.yaml')]) == 0
+    with open_bag(tmp_path / 'demo_tracks') as bag:
+        assert bag.topics['/radar_tracker/tracks'].msgcount == 5
 
 
 @pytest.mark.slow
