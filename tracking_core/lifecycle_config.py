@@ -139,8 +139,9 @@ class MergeConfig:
     )  # fmt: skip
 
     looks: int = parameter(
-        6, unit='1', doc='... for so many looks in a row, if both are confirmed', low=1, high=100,
-        live=True,
+        6, unit='1', low=1, high=100, live=True,
+        doc='... for so many looks in a row, if both are confirmed; a look with a plot of each '
+        'ends the row, unless contacts may share plots (association pda, or a resolution is set)',
     )  # fmt: skip
 
     def __post_init__(self) -> None:
