@@ -88,7 +88,7 @@ def duplicates(
             distances = _distance_squared(m, P, first, second, dt, space, part)
             near = distances <= distance**2 * m.shape[1]
             first, second = first[near], second[near]
-    if has_own_plots:
+    if has_own_plots and len(first):
         seen = tracks.confirmed & np.isfinite(tracks.nis)
         alone = ~(seen[first] & seen[second])
         first, second = first[alone], second[alone]
