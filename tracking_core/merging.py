@@ -65,7 +65,8 @@ def duplicates(
 
     Two tracks are one when their states are within `distance` (Mahalanobis, in the sum of their
     covariances) in every plane. Of angular states only angle and rate count. Confirmed tracks that
-    both had a plot in their last look are two where plots are never shared (`has_own_plots`).
+    both had a plot in their last look are two where plots are never shared (`has_own_plots`), but
+    for a third one there.
     """
     T = len(tracks)
     lost = np.zeros(T, bool)
@@ -89,12 +90,24 @@ def duplicates(
             near = distances <= distance**2 * m.shape[1]
             first, second = first[near], second[near]
     if has_own_plots and len(first):
-        seen = tracks.confirmed & np.isfinite(tracks.nis)
-        alone = ~(seen[first] & seen[second])
+        alone = _share_their_plots(tracks, first, second)
         first, second = first[alone], second[alone]
     rank = _rank(tracks)
     lost[np.where(rank[first] < rank[second], second, first)] = True
     return lost
+
+
+def _share_their_plots(tracks: Tracks, first: Ints, second: Ints) -> Bools:
+    """
+    Return which pairs (P,) of near tracks have not a plot each.
+
+    Of more than two confirmed tracks in one place plots say nothing: a jammer gives each its own.
+    """
+    sure = tracks.confirmed[first] & tracks.confirmed[second]
+    pairs = np.unique(np.stack([first[sure], second[sure]], axis=1), axis=0)  # some come twice
+    others = np.bincount(pairs.ravel(), minlength=len(tracks))
+    seen = np.isfinite(tracks.nis) & (others == 1)
+    return np.asarray(~(sure & seen[first] & seen[second]))
 
 
 def _distance_squared(

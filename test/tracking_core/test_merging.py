@@ -156,3 +156,12 @@ def test_duplicates_have_one_plot_between_them(nis, confirmed, own, is_double) -
     tracks = replace(tracks, nis=np.array(nis))
     found = duplicates(tracks, 1.0, has_own_plots=own)
     assert_array_equal(found, [False, is_double])
+
+
+def test_duplicates_of_three_in_one_place_are_ended_by_any_plots() -> None:
+    """As a jammer makes them, which has a plot for each; a tentative third does not count."""
+    tracks = make_tracks([[0, 10, 0, 0], [3, 10, 0, 0], [0, 10, 3, 0]], confirmed=True)
+    tracks = replace(tracks, nis=np.ones(3))
+    assert_array_equal(duplicates(tracks, 1.0, has_own_plots=True), [False, True, True])
+    two = replace(tracks, confirmed=np.array([True, True, False]))
+    assert_array_equal(duplicates(two, 1.0, has_own_plots=True), [False, False, True])
