@@ -104,8 +104,11 @@ def _share_their_plots(tracks: Tracks, first: Ints, second: Ints) -> Bools:
     Of more than two confirmed tracks in one place plots say nothing: a jammer gives each its own.
     """
     sure = tracks.confirmed[first] & tracks.confirmed[second]
-    pairs = np.unique(np.stack([first[sure], second[sure]], axis=1), axis=0)  # some come twice
-    others = np.bincount(pairs.ravel(), minlength=len(tracks))
+    if not sure.any():
+        return ~sure
+    T = len(tracks)
+    pair = np.unique(first[sure] * T + second[sure])  # some come twice
+    others = np.bincount(np.concatenate([pair // T, pair % T]), minlength=T)
     seen = np.isfinite(tracks.nis) & (others == 1)
     return np.asarray(~(sure & seen[first] & seen[second]))
 
