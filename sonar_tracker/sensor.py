@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from sonar_tracker.levelling import from_horizon, to_horizon
 from sonar_tracker.sensor_config import SensorConfig
 from tracking_core.batches import Bearings, Coverage, Floats, Scan
 from tracking_core.linalg import wrap_angle
@@ -75,7 +76,7 @@ class Sonar:
 
         """
         apart = wrap_angle(second - first)
-        if self.config.array == 'linear':
+        if self._is_linear:
             middle = first + 0.5 * apart - self._axis(coverage)
             # The difference of the cosines, 2 sin(middle) sin(apart / 2).
             apart = 2.0 * np.abs(np.sin(middle)) * np.sin(0.5 * apart)
@@ -87,12 +88,21 @@ class Sonar:
 
     def _blur(self, bearing: Floats) -> Floats:
         """Return how much wider a beam is at these angles from the axis than at broadside."""
-        if self.config.array != 'linear':
+        if not self._is_linear:
             return np.ones_like(bearing)
         return np.asarray(1.0 / np.maximum(np.abs(np.sin(bearing)), _LEAST_SINE))
 
     def _axis(self, coverage: Coverage) -> float:
         return coverage.sector_centre - self.config.sector_centre
+
+    @property
+    def _is_linear(self) -> bool:
+        return self.config.array == 'linear'
+
+    def in_sensor_axes(self, marks: Bearings, pose: PlatformPose) -> Bearings:
+        """Return marks whose bearings are those on the horizon, in tracking axes."""
+        yaw = self.config.mount.yaw
+        return replace(marks, bearing=from_horizon(marks.bearing, pose, yaw, self._is_linear))
 
     def measure(self, marks: Bearings, pose: PlatformPose, coverage: Coverage) -> Scan:
         """
@@ -109,7 +119,7 @@ class Sonar:
 
         """
         M = len(marks)
-        bearing = wrap_angle(marks.bearing + pose.yaw + self.config.mount.yaw)
+        bearing = to_horizon(marks.bearing, pose, self.config.mount.yaw, self._is_linear)
         variance = self.mark_sd(marks) ** 2 + pose.yaw_variance
         position = bearing[:, None]
         unsure = variance - self.noise(position, coverage)[:, 0, 0]

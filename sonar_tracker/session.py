@@ -22,7 +22,6 @@ from sonar_tracker.memory import recall, remember
 from sonar_tracker.sensor_config import MountConfig
 from sonar_tracker.tracker import bearing_states, SonarTracker
 from tracking_core.batches import Bearings, Floats, Tracks
-from tracking_core.linalg import wrap_angle
 from tracking_core.platform import Platform, pose_at
 from tracking_session.axes import check_axes, Warn
 from tracking_session.doubts import Doubt
@@ -99,8 +98,8 @@ class SonarInstrument:
             self._tells_noise = bool(np.isfinite(plots.bearing_sd).any())
         self._is_true = frame.tells_true(sensor.azimuth_reference)
         if self._is_true:
-            heading = pose_at(platform, plots.time).yaw + sensor.mount.yaw
-            plots = replace(plots, bearing=wrap_angle(plots.bearing - heading))
+            pose = pose_at(platform, plots.time)
+            plots = self.tracker.sonar.in_sensor_axes(plots, pose)
         return self.tracker.track(plots, platform)
 
     def doubts(self) -> Iterator[Doubt]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Protocol
 
-from tracking_core.association import ASSOCIATORS, DECIDING
+from tracking_core.association import ASSOCIATORS, DECIDING, JOINT
 from tracking_core.composition import Plane, ResolvingSensor, Setup
 from tracking_core.lifecycle import Lifecycle, LIFECYCLES
 from tracking_core.lifecycle_config import (
@@ -103,4 +103,5 @@ def assemble(
         max_tracks=config.max_tracks,
         longest_pause=config.longest_pause,
         resolution=Resolution(sensor, **vars(config.unresolved)) if resolution else None,
+        has_own_plots=not resolution and config.association in (*JOINT, *DECIDING),
     )

@@ -70,6 +70,7 @@ class Setup:
     looks_outside: int = 5  # the coverage since its last plot, after which a track has left
     resolution: Resolution | None = None  # None: every contact gives its own plot
     extent: Extent = ONE_PLOT  # every contact gives one plot
+    has_own_plots: bool = False  # no plot is ever that of two tracks
 
     def with_sensor(self, sensor: ResolvingSensor) -> Setup:
         """Return the same for another state of the sensor: filters keep what they worked out."""

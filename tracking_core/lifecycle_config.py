@@ -141,7 +141,9 @@ class MergeConfig:
 
     looks: int = parameter(
         6, unit='1', low=1, high=100, live=True,
-        doc='two confirmed tracks are one contact after so many looks in a row within distance',
+        doc='two confirmed tracks are one contact after so many looks in a row within distance; '
+        'a look with a plot of each ends the row, unless contacts may share plots (association '
+        'pda, or a resolution is set)',
     )  # fmt: skip
 
     def __post_init__(self) -> None:

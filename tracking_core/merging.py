@@ -21,13 +21,15 @@ def end_doubles(
     config: MergeConfig,
     space: Space = POINTS,
     is_unresolved: bool = False,
+    has_own_plots: bool = False,
 ) -> tuple[Tracks, Bools]:
     """
     Return the tracks with their looks as doubles counted, and which of them are to go.
 
     Contacts that cross are near each other for a look or two, doubles stay so: a confirmed track
-    goes after `config.looks` looks in a row, a tentative one at once. Contacts that have plots in
-    common may stay near for long, but were apart before they met: of such, a track must have been
+    goes after `config.looks` looks in a row, a tentative one at once. Contacts that stay near each
+    other for long have a plot each, doubles one between them: a look with two ends the row.
+    Contacts that have plots in common were apart before they met: of such, a track must have been
     a double for a third of all its plots.
 
     Parameters
@@ -42,9 +44,11 @@ def end_doubles(
         Where the tracks are.
     is_unresolved : bool
         Contacts may have plots in common.
+    has_own_plots : bool
+        No plot is ever that of two tracks.
 
     """
-    near = duplicates(tracks, config.distance, space)
+    near = duplicates(tracks, config.distance, space, has_own_plots)
     if not (near.any() or tracks.doubled.any()):
         return tracks, near
     looks = np.where(near, tracks.doubled + 1, 0)
@@ -53,12 +57,16 @@ def end_doubles(
     return tracks, near & (~tracks.confirmed | (tracks.doubled >= patience))
 
 
-def duplicates(tracks: Tracks, distance: float, space: Space = POINTS) -> Bools:
+def duplicates(
+    tracks: Tracks, distance: float, space: Space = POINTS, has_own_plots: bool = False
+) -> Bools:
     """
     Return which tracks (T,) are second ones on a contact that an older or surer track follows.
 
     Two tracks are one when their states are within `distance` (Mahalanobis, in the sum of their
-    covariances) in every plane. Of angular states only angle and rate count.
+    covariances) in every plane. Of angular states only angle and rate count. Confirmed tracks that
+    both had a plot in their last look are two where plots are never shared (`has_own_plots`), but
+    for a third one there.
     """
     T = len(tracks)
     lost = np.zeros(T, bool)
@@ -81,9 +89,28 @@ def duplicates(tracks: Tracks, distance: float, space: Space = POINTS) -> Bools:
             distances = _distance_squared(m, P, first, second, dt, space, part)
             near = distances <= distance**2 * m.shape[1]
             first, second = first[near], second[near]
+    if has_own_plots and len(first):
+        alone = _share_their_plots(tracks, first, second)
+        first, second = first[alone], second[alone]
     rank = _rank(tracks)
     lost[np.where(rank[first] < rank[second], second, first)] = True
     return lost
+
+
+def _share_their_plots(tracks: Tracks, first: Ints, second: Ints) -> Bools:
+    """
+    Return which pairs (P,) of near tracks have not a plot each.
+
+    Of more than two confirmed tracks in one place plots say nothing: a jammer gives each its own.
+    """
+    sure = tracks.confirmed[first] & tracks.confirmed[second]
+    if not sure.any():
+        return ~sure
+    T = len(tracks)
+    pair = np.unique(first[sure] * T + second[sure])  # some come twice
+    others = np.bincount(np.concatenate([pair // T, pair % T]), minlength=T)
+    seen = np.isfinite(tracks.nis) & (others == 1)
+    return np.asarray(~(sure & seen[first] & seen[second]))
 
 
 def _distance_squared(

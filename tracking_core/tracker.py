@@ -177,8 +177,9 @@ class Tracker:
         """Return the tracks without those that follow another's contact, and the ids of these."""
         merge, is_unresolved = self.setup.merge, self.setup.resolution is not None
         living, doubled = end_doubles(
-            seen.tracks, seen.passed, merge, self.setup.sensor.space, is_unresolved
-        )
+            seen.tracks, seen.passed, merge, self.setup.sensor.space, is_unresolved,
+            self.setup.has_own_plots,
+        )  # fmt: skip
         return take(living, ~doubled), living.id[doubled]
 
     def _scatter(self, state: State, scan: Scan, seen: Look, interval: float) -> Scatter:

@@ -139,3 +139,29 @@ def test_end_doubles_spares_contacts_that_were_apart_before(apart: int, looks: i
             tracks, np.ones(2, bool), MergeConfig(looks=3), is_unresolved=True
         )
         assert_array_equal(ended, [False, look == looks])
+
+
+@pytest.mark.parametrize(
+    ('nis', 'confirmed', 'own', 'is_double'),
+    [
+        ([1.0, 1.0], True, True, False),
+        ([1.0, np.nan], True, True, True),
+        ([1.0, 1.0], [True, False], True, True),
+        ([1.0, 1.0], True, False, True),
+    ],
+)
+def test_duplicates_have_one_plot_between_them(nis, confirmed, own, is_double) -> None:
+    """Confirmed tracks with a plot each are two contacts, unless a plot may be that of both."""
+    tracks = make_tracks([[0, 10, 0, 0], [3, 10, 0, 0]], confirmed=confirmed)
+    tracks = replace(tracks, nis=np.array(nis))
+    found = duplicates(tracks, 1.0, has_own_plots=own)
+    assert_array_equal(found, [False, is_double])
+
+
+def test_duplicates_of_three_in_one_place_are_ended_by_any_plots() -> None:
+    """As a jammer makes them, which has a plot for each; a tentative third does not count."""
+    tracks = make_tracks([[0, 10, 0, 0], [3, 10, 0, 0], [0, 10, 3, 0]], confirmed=True)
+    tracks = replace(tracks, nis=np.ones(3))
+    assert_array_equal(duplicates(tracks, 1.0, has_own_plots=True), [False, True, True])
+    two = replace(tracks, confirmed=np.array([True, True, False]))
+    assert_array_equal(duplicates(two, 1.0, has_own_plots=True), [False, False, True])
