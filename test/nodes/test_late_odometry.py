@@ -167,7 +167,7 @@ def test_node_that_ends_while_plots_wait_keeps_what_they_tell(sail, probe, tmp_p
 
 def test_plots_do_not_wait_for_ever_where_simulated_time_stands_still(start_node, probe):
     """As at the end of a recording that is played."""
-    start_node(*RELIABLE, 'use_sim_time:=true')
+    start_node(*RELIABLE, 'use_sim_time:=true', 'ownship_patience:=8.0')
     clock = probe.tell(Clock, '/clock')
     probe.peer.wait_until_matched(clock)
     ship = Ship(probe)
